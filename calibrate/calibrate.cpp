@@ -18,14 +18,14 @@ namespace pastefit {
 
 namespace {
 
-/// The study's options without the simulations of the hold-outs, which come after the search.
+/// Search options without the simulations that the held-out tests need after the search.
 SearchOptions options_of_the_search(const Study& study) {
   SearchOptions options = study.search;
   options.budget_simulations -= hold_out_simulations(study, study.search);
   return options;
 }
 
-/// What keeps the study from being looked at with coarse grains first.
+/// Reasons why `coarse_first` cannot be used.
 Faults coarse_faults(const Study& study) {
   const std::string where = "search.coarse_first";
   const auto why = [&](std::size_t test) { return why_of_that_size(study.tests[test].lab.test); };
@@ -69,7 +69,7 @@ EvaluatorOptions evaluator_of(const Study& study, const CalibrateOptions& option
   return evaluator;
 }
 
-/// What the conditions that nobody states do to a confirmed material.
+/// Effects of unstated test conditions on the readings of a confirmed material.
 std::vector<ConditionEffect> effects_on(const Calibration& found, const Study& study, Store& store,
                                         const EvaluatorOptions& evaluator, const SimulationObjective& objective,
                                         EvaluationCounts& counts) {
@@ -80,7 +80,7 @@ std::vector<ConditionEffect> effects_on(const Calibration& found, const Study& s
     SimulationObjective other(changed, store, evaluator);
     auto runs = other.predict(point, packings, test);
     counts += other.counts();
-    if (objective.stop_requested()) runs.clear();  // some were cut off
+    if (objective.stop_requested()) runs.clear();  // some runs were cut off
     return runs;
   };
   const auto& fresh = found.confirmation.packings;
@@ -119,7 +119,7 @@ Result<CalibrationResult> calibrate(const Study& study, Store& store, const Cali
     if (callbacks.progress)
       callbacks.progress(Progress{"examination", 0, asked.budget_simulations, found.best.error, ""});
     predict_hold_outs(study, found, objective);
-    // Readings that no material meets say nothing of the parameters; and who interrupts does not want to wait.
+    // Readings out of reach determine no parameter; an interruption should end soon.
     const bool stopped = options.stop && *options.stop;
     if (found.status != CalibrationStatus::out_of_reach && !stopped) {
       const auto effects = effects_on(found, study, store, evaluator, objective, result.counts);

@@ -16,42 +16,41 @@
 
 namespace pastefit {
 
-/// How a calibration is run; none of it changes the card of one that comes to its end.
+/// Run-time options. They do not affect the card of a completed calibration.
 struct CalibrateOptions {
   std::string study_file = {};              ///< name for the card's provenance
-  int threads = 0;                          ///< simulations at the same time; 0: one for each core
-  double wall_budget_s = 0;                 ///< end after this time with the best so far; 0: no end
-  double core_budget_s = 0;                 ///< the same for the processor time of all simulations together
-  const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to end
-  Engine engine = {};                       ///< what simulates; another one than the default has a store of its own
+  int threads = 0;                          ///< simulations in parallel; 0: one per core
+  double wall_budget_s = 0;                 ///< stop after this time with the best result so far; 0: no limit
+  double core_budget_s = 0;                 ///< limit of the processor time summed over all simulations; 0: no limit
+  const std::atomic<bool>* stop = nullptr;  ///< set to true on interruption by the user
+  Engine engine = {};  ///< simulates the tests; an engine other than the default needs its own store
 };
 
-/// Who is told how it goes; each may be left empty.
+/// Callbacks during a calibration; each may be empty.
 struct CalibrateCallbacks {
   std::function<void(const Progress&)> progress;           ///< of the search
-  std::function<void(const EvaluationCounts&)> evaluated;  ///< after each simulation, never two calls at a time
-  std::function<void()> pulse;                             ///< now and then during each, from any thread
-  RunObserver* run_observer = nullptr;                     ///< of the simulations that are not only tried out
+  std::function<void(const EvaluationCounts&)> evaluated;  ///< after each simulation, one call at a time
+  std::function<void()> pulse;          ///< from time to time during each simulation, from any thread
+  RunObserver* run_observer = nullptr;  ///< sees the simulations that run to their end
 };
 
-/// What a calibration brought.
+/// Result of a calibration.
 struct CalibrationResult {
   Calibration search;
   EvaluationCounts counts;
   std::optional<Card> card;            ///< none if no candidate could be simulated
-  std::optional<Inference> inference;  ///< none if the laboratory is out of reach, or the user stopped the search
+  std::optional<Inference> inference;  ///< none if the readings are out of reach, or after an interruption
 };
 
-/// Everything that keeps the study from being calibrated on this machine, places as in the study file; empty: fit to
-/// run.
+/// Returns the reasons why the study cannot be calibrated on this machine, with places in the study file; empty if it
+/// can.
 Faults validate(const Study& study, const CalibrateOptions& options);
 
-/// Calibrates: searches (`search`), predicts the tests that are held out, examines which other materials fit as well,
-/// and makes the card. All of it together spends at most `study.search.budget_simulations`. Every simulation is in the
-/// store before it is used, and what the store knows is not simulated again, so that a calibration that was stopped
-/// goes on where it was. Requirement: the store was opened for this program and the inputs of the study.
-/// Errors: what `validate` finds, and then nothing was simulated; the store could not keep
-/// an evaluation.
+/// Calibrates: searches (`search`), predicts the held-out tests, examines which other materials fit as well, and makes
+/// the card. All of this together uses at most `study.search.budget_simulations`. Every simulation is stored before it
+/// is used. Stored simulations are not repeated, so an interrupted calibration continues where it stopped. Requirement:
+/// the store was opened for this program and the inputs of the study. Errors: those of `validate`, before any
+/// simulation; the store cannot write an evaluation.
 Result<CalibrationResult> calibrate(const Study& study, Store& store, const CalibrateOptions& options = {},
                                     const CalibrateCallbacks& callbacks = {});
 

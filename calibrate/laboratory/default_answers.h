@@ -21,38 +21,37 @@
 
 namespace pastefit {
 
-/// An outline that a laboratory file may take as it is.
+/// Measured outline that can be copied into a laboratory file.
 struct NamedOutline {
   std::string_view name;  ///< the stage of the test, e.g. "step1"
   Outline outline;
 };
 
-/// A size of a test, in the unit of its key in files, and between which values such tests are made. What lies far
-/// from them is asked about.
+/// Size in a test, in the unit of its key, with the usual range. The program asks about values far outside.
 struct Experience {
   std::string_view place;
   double value = 0, smallest = 0, largest = 0;
 };
 
-/// Yield stress of the fluid that would have a reading, by a formula from the literature.
+/// Yield stress of a fluid that would give this reading, by a formula from the literature.
 struct YieldStress {
   std::string reading;
   std::string_view formula;  ///< its authors and year
   double pa = 0;
 };
 
-/// A reading that a fluid with a yield stress would give, by a formula from the literature.
+/// Reading that a fluid with a given yield stress would give, by a formula from the literature.
 struct PredictedReading {
   std::string_view key;  ///< in laboratory files
   std::string_view formula;
   double value = 0;               ///< in the unit of the key
-  double standard_deviation = 0;  ///< the formula's own error, likewise
+  double standard_deviation = 0;  ///< error of the formula, in the unit of the key
 };
 
-// What a kind of test answers of which nothing else is said: one that has no grains to pour and no random packing. A
-// kind for which it is otherwise has an overload for its own value (calibrate/laboratory/slump.h).
+// Defaults for kinds of tests without poured grains or random packing. Other kinds overload them for their own type
+// (calibrate/laboratory/slump.h).
 
-/// A test that has every part, with default values.
+/// Test with default values and all optional parts.
 template <class Kind>
 Kind default_test(const Kind&) {
   return {};
@@ -66,36 +65,35 @@ inline std::string preparation_key(const Specimen&) {
   return {};
 }
 
-/// Simulated time in which the apparatus moves [s]; to fill it and waits for rest come on top.
+/// Simulated time in which the apparatus moves [s], without filling and waiting for rest.
 inline double moved_time_s(const Specimen&) {
   return 0;
 }
 
-/// A laboratory's outline; called for readings that come from one only (`ReadingKind::from_outline`).
+/// Reads a measured outline; called for readings with `ReadingKind::from_outline`.
 inline void read_outline(ObjectReader&, const ReadingKind&, Specimen&) {}
 
-/// The laboratory took a reading of this kind; called for those that are taken on request
-/// (`ReadingKind::on_request`).
+/// Enables a measured reading of this kind; called for readings with `ReadingKind::on_request`.
 inline void ask_for(Specimen&, const ReadingKind&) {}
 
-/// The surfaces that have parameters of a study. None: tools are of steel, and what is known of them is part of the
-/// apparatus, or they are of the grains' material.
+/// Surfaces with parameters in a study. Default: none, since tools are of steel, with properties given in the
+/// apparatus, or of the grains' material.
 inline std::vector<Surface> surfaces_of(Specimen&) {
   return {};
 }
 
-/// Density of a grain [kg/m^3], from the mean readings of some runs; nothing if it is not known. What the laboratory
-/// file calls the bulk density is that of a grain.
+/// Density of a grain [kg/m^3] from the mean readings of some runs; nothing if unknown. Default: the bulk density in
+/// the laboratory file is that of a grain.
 inline std::optional<double> grain_density_of(const Specimen& test, const Readings&) {
   return test.bulk_density_kg_m3;
 }
 
-/// Why the grains have to be as large as the laboratory's, for a person; empty: their size is the simulation's choice.
+/// Reason why the grains must have the size of the real ones; empty if the simulation may choose it.
 inline std::string_view why_of_that_size(const Specimen&) {
   return {};
 }
 
-/// The names of the series of pictures that a run may be shown in, and the one that a moment belongs to.
+/// Names of the picture series of a run; `series_at`: index of the series that a snapshot belongs to.
 inline std::span<const std::string_view> series_of(const Specimen&) {
   static constexpr std::array<std::string_view, 1> only{"grains"};
   return only;
@@ -105,74 +103,74 @@ inline std::size_t series_at(const Specimen&, const Snapshot&) {
   return 0;
 }
 
-/// The heap as it stands at a moment of the test, from the side; nothing where there is none, as while it is prepared.
+/// Outline of the heap in this snapshot, from the side; nothing if there is none, e.g. during filling.
 inline std::optional<Outline> heap_at(const Specimen&, const Snapshot&) {
   return std::nullopt;
 }
 
-/// What stands there is seen from the side, at moments that are worth a drawing; of one name the last counts.
+/// Outline from the side at times worth drawing; a later one replaces an earlier one of the same name.
 inline std::optional<NamedOutline> outline_at(const Specimen&, const Snapshot&) {
   return std::nullopt;
 }
 
-/// The test as a drawing, or some: what was seen of these runs, all of one material, over what was measured.
+/// Drawings of the test: results of runs of one material, over the measurements.
 inline std::vector<Drawing> drawings_of(const Specimen&, std::span<const SeenRun>, std::span<const Measurement>) {
   return {};
 }
 
-/// How far off a simulated reading may be where nobody says: one standard deviation of the laboratory.
+/// Default tolerance of a reading: one standard deviation of the measurement.
 inline double default_tolerance(const Specimen&, const Measurement& measured) {
   return measured.standard_deviation;
 }
 
-/// Which of these free parameters the fitted readings cannot tell from others, and what to do, for a person.
+/// Message on free parameters that the fitted readings do not identify, with advice; may be empty.
 inline std::string unseen_by(const Specimen&, std::span<const std::string_view>, std::span<const std::string_view>) {
   return {};
 }
 
-/// Powders are hardly lighter than 250 kg/m^3, but in lb/ft3 and kg/l every paste is.
+/// Smallest plausible density: powders are rarely below 250 kg/m^3, while every paste is if given in lb/ft3 or kg/l.
 inline std::vector<Experience> experience_of(const Specimen& test) {
   return {{"material.bulk_density_kg_m3", test.bulk_density_kg_m3, 250, 10000}};
 }
 
-/// What these measurements, taken together, cannot be, or can hardly be.
+/// Notes and faults of implausible or impossible combinations of measurements.
 inline ReadingCheck check_readings(const Specimen&, std::span<const Measurement>) {
   return {};
 }
 
-/// What the readings of a test say of its material as a fluid with a yield stress.
+/// Yield stresses that follow from the readings.
 inline std::vector<YieldStress> yield_stresses_of(const Specimen&, const Readings&) {
   return {};
 }
 
-/// The readings that a fluid with this yield stress would give, in the order of the test; none where no formula holds.
-/// Nothing for a kind of test for which there are no such formulas.
+/// Readings of a fluid with this yield stress, in the order of the test; an empty list where no formula is valid,
+/// nothing for kinds of tests without such formulas.
 inline std::optional<std::vector<PredictedReading>> readings_of_fluid(const Specimen&, double) {
   return std::nullopt;
 }
 
-/// Between which values a parameter is likely to be, in its unit.
+/// Range in which a parameter probably is, in its unit.
 struct LikelyRange {
   double lowest = 0, highest = 0;
 };
 
-/// The strengths [Pa] (`strength_pa`) with which a test is likely to have these readings; nothing if nothing is known.
+/// Probable range of the strength [Pa] (`strength_pa`) for these readings; nothing if unknown.
 inline std::optional<LikelyRange> likely_strength_pa(const Specimen&, const Readings&) {
   return std::nullopt;
 }
 
-/// How near a run is to one that the standards have a laboratory reject and repeat: it is where this is more than 1.
-/// NaN: not read; nothing for a kind of which no run is rejected.
+/// Distance to rejection by the standards: above 1 the test would be rejected and repeated. NaN if not read; nothing
+/// for kinds of tests without rejection.
 inline std::optional<double> rejection_index(const Specimen&, const Readings&) {
   return std::nullopt;
 }
 
-/// What became of the runs that a laboratory would reject, after "6 of 8".
+/// End of a sentence on rejected runs, after "6 of 8".
 inline std::string_view rejected_runs(const Specimen&) {
   return "runs are such as a laboratory rejects";
 }
 
-/// What a person should know of these runs besides their readings. A line, or nothing.
+/// One-line remark on these runs besides their readings; may be empty.
 inline std::string remarks_on(const Specimen&, std::span<const Readings>) {
   return {};
 }

@@ -13,19 +13,19 @@
 
 namespace pastefit {
 
-// The dimensions of an apparatus (core/apparatus/dimension.h) in JSON, in SI, and in files for people, in their units.
+// Dimensions of an apparatus (core/apparatus/dimension.h) in JSON, in SI, and in user files, in their units.
 
-/// A field's key in files for people, and how many of the key's unit one of SI is: "base_radius_m" is
-/// "base_diameter_mm", 2000.
+/// Key of a field in user files, and the value of one SI unit in the key's unit: "base_radius_m" is "base_diameter_mm",
+/// with 2000.
 struct FileKey {
   std::string name;
   double per_si = 1;
 };
 FileKey file_key(std::string_view field);
 
-/// A field of a test: its path in JSON, "mould.base_radius_m", and its place in laboratory files,
-/// "apparatus.mould.base_diameter_mm". Of a dimension also what the schemas say of it; of an object, which holds some,
-/// only that.
+/// Field of a test: path in JSON, "mould.base_radius_m", and place in laboratory files,
+/// "apparatus.mould.base_diameter_mm". The other members are set for dimensions only, not for objects that contain
+/// them.
 struct FilePlace {
   std::string field, place;
   Range range = {};  ///< in the unit of the key
@@ -39,7 +39,8 @@ Range range_in_files(const Dimension<Owner>& dimension) {
   return {rounded(dimension.smallest * per_si, 12), rounded(dimension.largest * per_si, 12)};
 }
 
-/// Adds the places of an object's dimensions; `field` and `place` are those of the object, empty for the test itself.
+/// Adds the places of an object's dimensions; `field` and `place` are those of the object (empty `field`: the test
+/// itself).
 template <class Owner, std::size_t count>
 void add_places(std::vector<FilePlace>& out, const std::array<Dimension<Owner>, count>& dimensions,
                 const std::string& field = "", const std::string& place = "apparatus") {
@@ -50,7 +51,7 @@ void add_places(std::vector<FilePlace>& out, const std::array<Dimension<Owner>, 
   if (!field.empty()) out.push_back({field, place});
 }
 
-/// Names them to an `ObjectReader`, `ObjectWriter` or `ObjectSchema` of JSON in SI, where all are said.
+/// Describes all dimensions in SI to an `ObjectReader`, `ObjectWriter` or `ObjectSchema`.
 template <class Fields, class Object, class Owner, std::size_t count>
 void describe_dimensions(Fields& fields, Object& object, const std::array<Dimension<Owner>, count>& dimensions) {
   for (const Dimension<Owner>& one : dimensions)
@@ -58,16 +59,16 @@ void describe_dimensions(Fields& fields, Object& object, const std::array<Dimens
                   {one.smallest, one.largest, false, true}, required);
 }
 
-/// Whether a number of a file is on the wrong side of nothing.
+/// True if a number is negative, or 0, where the range excludes it.
 inline bool is_below_nothing(const nlohmann::json* number, const Range& range) {
   if (!number || !number->is_number()) return false;
   const double value = number->get<double>();
   return value < 0 ? range.smallest >= 0 : value == 0 && range.smallest > 0;
 }
 
-/// Names them to an `ObjectReader` or `ObjectSchema` of a file for people. `need`: of those without a default. What is
-/// below nothing is a fault at once; else ranges are left to the test's `validate`, which judges all numbers together
-/// once they could be read.
+/// Describes dimensions in a user file to an `ObjectReader` or `ObjectSchema`. `need`: for those without a default.
+/// Numbers with a wrong sign are faults at once; other ranges are checked by the test's `validate`, together, after all
+/// numbers have been read.
 template <class Fields, class Owner, std::size_t count>
 void read_dimensions(Fields& fields, Owner& owner, const std::array<Dimension<Owner>, count>& dimensions, Need need) {
   for (const Dimension<Owner>& one : dimensions) {

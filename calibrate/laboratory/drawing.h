@@ -16,16 +16,16 @@
 
 namespace pastefit {
 
-/// What was seen of one simulation besides its readings.
+/// Data of one simulation for drawings and tables.
 struct SeenRun {
   std::uint64_t packing = 0;
   Readings readings;
-  std::map<std::string, Outline, std::less<>> outlines;  ///< by their names (`outline_at`)
+  std::map<std::string, Outline, std::less<>> outlines;  ///< by name (`outline_at`)
   std::optional<Curve> curve;
 };
 
-/// Whose word a part of a drawing is: each has its own look. `run` is one simulation of those behind the means of
-/// `simulation`, `rejected` one that a laboratory would repeat.
+/// Source of a part of a drawing, which determines its style. `run`: a simulation that enters the means of
+/// `simulation`; `rejected`: a simulation that the standards reject.
 enum class DrawnBy { laboratory, simulation, apparatus, run, rejected };
 
 using DrawnPoint = std::array<double, 2>;
@@ -37,22 +37,22 @@ struct DrawnLine {
   double deviation = 0;  ///< standard deviation of y, in its unit
 };
 
-/// Between two curves: x, lower and upper end.
+/// Band between two curves: x, lower and upper end.
 struct DrawnBand {
   std::string name;
   std::vector<std::array<double, 3>> points;
 };
 
-/// A length with its two arrows, as in a dimensioned drawing.
+/// Dimension line with two arrows.
 struct DrawnLength {
   std::string reading;
   DrawnBy by = DrawnBy::laboratory;
-  DrawnPoint from{}, to{};     ///< where its line stands
-  DrawnPoint first{}, last{};  ///< what it is the distance of, projected on that line
+  DrawnPoint from{}, to{};     ///< ends of the dimension line
+  DrawnPoint first{}, last{};  ///< measured points, projected on that line
   double value = 0, deviation = 0;
 };
 
-/// A drawing of a test, in the unit that each axis names.
+/// Drawing of a test; the axes name their units.
 struct Drawing {
   std::string name, x, y;
   bool to_scale = false;  ///< both axes have the same scale
@@ -61,14 +61,14 @@ struct Drawing {
   std::vector<DrawnLength> lengths;
 };
 
-/// What the runs drew, as the mean and, of several, the band from the lowest to the highest.
-/// Requirement: curves of one kind, whose points stand at the same places; the longer ones count as far as all go.
+/// Mean of the curves of the runs, with the band from lowest to highest if there are several. Requirement: curves of
+/// one kind with points at the same abscissas; the shortest limits the length.
 Drawing drawing_of_curves(std::string name, std::string x, std::string y, std::span<const SeenRun> runs);
 
-/// Mean of a reading over the runs; nothing if some run, or every one, lacks it.
+/// Mean of a reading over the runs; nothing without runs, or if any run lacks it.
 std::optional<double> mean_reading(std::span<const SeenRun> runs, std::string_view name);
 
-/// The laboratory's measurement of a reading; nothing if there is none.
+/// Measurement of a reading; null if there is none.
 const Measurement* find_measurement(std::span<const Measurement> measured, std::string_view name);
 
 }  // namespace pastefit

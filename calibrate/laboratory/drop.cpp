@@ -16,8 +16,8 @@ std::vector<DrawnPoint> flight(double height_m, double end_s, double half_s) {
   constexpr int kPoints = 40;
   std::vector<DrawnPoint> points;
   for (int k = 0; k <= kPoints; ++k) {
-    const double share = static_cast<double>(k) / kPoints;   // of the way in time
-    const double from_top = half_s < 0 ? share : 1 - share;  // in units of the half
+    const double share = static_cast<double>(k) / kPoints;   // of the duration
+    const double from_top = half_s < 0 ? share : 1 - share;  // as a fraction of the half
     points.push_back({end_s - std::abs(half_s) * (1 - share), mm * height_m * (1 - from_top * from_top)});
   }
   return points;
@@ -74,7 +74,7 @@ std::vector<Drawing> drawings_of(const DropTest& test, std::span<const SeenRun> 
       const double rise_s = std::sqrt(2 * std::max(height_mm, 0.0) / mm / kGravity);
       drawing.lines.push_back({name, by, flight(height_mm / mm, touch_s + rise_s, rise_s), 0});
       const double top_s = touch_s + rise_s;
-      const double beside_s = top_s * (by == DrawnBy::laboratory ? 1.06 : 1.14);  // one beside the other
+      const double beside_s = top_s * (by == DrawnBy::laboratory ? 1.06 : 1.14);  // side by side
       drawing.lengths.push_back(
           {reading, by, {beside_s, 0}, {beside_s, height_mm}, {top_s, 0}, {top_s, height_mm}, height_mm, deviation});
     };

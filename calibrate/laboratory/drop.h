@@ -16,7 +16,7 @@
 
 namespace pastefit {
 
-// The drop test in the words of files and people: what calibrate/laboratory/test.h asks of a kind.
+// Drop test in files and messages: implements calibrate/laboratory/test.h.
 
 inline constexpr std::string_view kind_of(const DropTest&) {
   return "drop";
@@ -24,7 +24,7 @@ inline constexpr std::string_view kind_of(const DropTest&) {
 
 double grains_needed(const DropTest& test);
 
-/// The keys of "apparatus" in laboratory and apparatus files: millimetres and degrees.
+/// Keys of "apparatus" in laboratory and apparatus files: millimetres and degrees.
 template <class Fields>
 void describe_apparatus(Fields& apparatus, DropTest& test, Need need) {
   read_dimensions(apparatus, test, drop_dimensions, need);
@@ -44,8 +44,8 @@ std::string_view why_of_that_size(const DropTest& test);
 nlohmann::ordered_json conditions_of(const DropTest& test);
 std::string conditions_in_words(const DropTest& test);
 
-/// The height of the ball over time, from its fall to the top of its rebound, on each plate: free flight before and
-/// after the contact, whose time is too short to be drawn.
+/// Height of the ball over time, from the fall to the top of the rebound, on each plate. Free flight before and after
+/// the contact, which is too short to be drawn.
 std::vector<Drawing> drawings_of(const DropTest& test, std::span<const SeenRun> runs,
                                  std::span<const Measurement> measured);
 

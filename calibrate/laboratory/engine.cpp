@@ -7,7 +7,7 @@ namespace pastefit {
 
 std::optional<Failure> too_soft(const Test& test, const RunOptions& options) {
   const Specimen& specimen = specimen_of(test);
-  const double overlap = 2 * resting_overlap(specimen.contact, specimen.grains.radius_m);  // over a radius
+  const double overlap = 2 * resting_overlap(specimen.contact, specimen.grains.radius_m);  // in radii
   if (!(overlap > options.steps.overlap_limit)) return std::nullopt;
   Failure failure;
   failure.reason = FailureReason::excessive_overlap;

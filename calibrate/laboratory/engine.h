@@ -8,7 +8,7 @@
 
 namespace pastefit {
 
-/// What is asked of the engine, by a search as by a check. A test may put a quick or a spoiled one in its place.
+/// Simulator used by searches and checks. Tests can replace it by a fast or a faulty one.
 struct Engine {
   std::function<std::shared_ptr<const Packing>(const Test&, const RunOptions&)> prepare =
       [](const Test& test, const RunOptions& options) { return pastefit::prepare(test, options); };
@@ -17,28 +17,28 @@ struct Engine {
   };
 };
 
-/// Sees simulations while a search runs them, so that they need not be run once more to be shown. Called from the
-/// threads that simulate.
+/// Watches simulations during a search, so that they need not be repeated for display. Called from the simulating
+/// threads.
 class RunObserver {
  public:
   using Watch = std::function<void(const Snapshot&)>;
 
   virtual ~RunObserver() = default;
 
-  /// A simulation that will run to its end; asked in the order of simulations. The answer is called with its moments,
-  /// those of the filling first if that is made for it, by one thread.
+  /// Begins a simulation that will run to its end; called in the order of simulations. The result is called from one
+  /// thread with the snapshots, starting with those of the filling if it is simulated for this test.
   virtual Watch begin(const Test& test) = 0;
 
-  /// It has ended, or failed. One that a stop cut off never ends.
+  /// Ends a simulation, also after a failure. Not called for interrupted simulations.
   virtual void end(const Test& test, const Outcome& outcome) = 0;
 
-  /// Simulated time between two of its moments.
+  /// Simulated time between two snapshots.
   virtual double interval_s() const = 0;
 };
 
-/// The failure that a test comes to without being simulated: grains that are so soft that their own attraction presses
-/// two of them deeper into each other than `RunOptions` lets any be. A search asks before it prepares a candidate: what
-/// is poured is smaller the softer it is, without end, and a mould of it has no end either.
+/// Failure of a test whose grains are so soft that their own attraction would exceed the overlap limit of `RunOptions`;
+/// found without simulation. A search calls this before it prepares a candidate: the softer the grains, the smaller the
+/// poured volume and the longer the filling of the mould, both without limit.
 std::optional<Failure> too_soft(const Test& test, const RunOptions& options);
 
 }  // namespace pastefit

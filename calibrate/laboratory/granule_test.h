@@ -17,7 +17,7 @@
 
 namespace pastefit {
 
-// What tests of small granules that stick have in common in the words of files and people (core/apparatus/granules.h).
+// Common parts of tests of small adhesive granules, in files and messages (core/apparatus/granules.h).
 
 template <class T>
 concept GranuleTest = std::same_as<T, PelletCrush> || std::same_as<T, ShearCell>;
@@ -27,7 +27,7 @@ double grains_needed(const T& test) {
   return poured_grains(test);
 }
 
-/// The filling of the vessel, and all that follows, each with a clock of its own.
+/// Filling, and the rest of the test, each with its own clock.
 template <GranuleTest T>
 std::span<const std::string_view> series_of(const T&) {
   static constexpr std::array<std::string_view, 2> both{"filling", "grains"};
@@ -39,7 +39,7 @@ std::size_t series_at(const T&, const Snapshot& snapshot) {
   return snapshot.phase.starts_with("fill.") ? 0 : 1;
 }
 
-/// The surface of the tools in laboratory and apparatus files. `meaning`: which tools these are.
+/// Surface of the tools in laboratory and apparatus files. `meaning`: names the tools.
 template <class Fields>
 void read_tools(Fields& apparatus, std::string_view meaning, WallContact& tools) {
   apparatus.object({"tools", meaning}, Need::optional,

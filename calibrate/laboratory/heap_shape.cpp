@@ -14,13 +14,13 @@ namespace {
 
 constexpr double pancake = 0.57735026918962576;  // 1/sqrt(3)
 constexpr double paraboloid = 0.81649658092772603;
-constexpr double explained = 2, sure = 3;  // deviations
+constexpr double explained = 2, sure = 3;  // in standard deviations
 
 double error_of(const Measurement& one) {
   return one.standard_deviation / std::sqrt(one.repeats);
 }
 
-/// The first of these readings that was taken.
+/// The first of these readings with a measurement.
 const Measurement* first_of(std::span<const Measurement> measurements, std::initializer_list<std::string> names) {
   for (const std::string& name : names)
     for (const Measurement& one : measurements)
@@ -43,8 +43,8 @@ double deviation_of_share(const SlumpTest& test, const Heap& heap) {
          std::hypot(error_of(heap.width) / heap.width.value, 0.5 * error_of(heap.height) / heap.height.value);
 }
 
-/// Height of the cone that is nearest to the readings, in their deviations; by bisection of the slope. Requirement:
-/// the readings are wider than a cone.
+/// Height of the cone closest to the readings, in their deviations; by bisection of the slope. Requirement: the
+/// readings are wider than a cone.
 double nearest_cone_mm(const SlumpTest& test, const Heap& heap) {
   const Measurement &height = heap.height, &width = heap.width;
   const auto rises = [&](double at_mm) {
@@ -53,7 +53,7 @@ double nearest_cone_mm(const SlumpTest& test, const Heap& heap) {
            (cone_mm - width.value) * cone_mm / (2 * at_mm) / std::pow(error_of(width), 2);
   };
   double low = height.value / std::pow(share_of_cone_width(test, heap), 2),
-         high = height.value;  // there one reading is met
+         high = height.value;  // matches one reading exactly
   for (int k = 0; k < 60; ++k) {
     const double middle = (low + high) / 2;
     (rises(middle) ? high : low) = middle;
@@ -61,15 +61,15 @@ double nearest_cone_mm(const SlumpTest& test, const Heap& heap) {
   return low;
 }
 
-/// Of the narrowest heap of this height, a flat cylinder.
+/// Width of the narrowest heap of this height, a flat cylinder.
 double narrowest_mm(const SlumpTest& test, double height_mm) {
   return pancake * cone_width_mm(test, height_mm);
 }
 
-/// "; a radius of 236 mm, given as a width, is a width of 472 mm": what a heap that is too narrow may be. Empty if it
-/// is none of that.
+/// Likely mistakes in the readings of a heap that is too narrow: "; a radius of 236 mm, given as a width, is a width of
+/// 472 mm". May be empty.
 std::string slips_of(const SlumpTest& test, const Heap& heap) {
-  constexpr double widest = 1.15;  // over a cone: skirts
+  constexpr double widest = 1.15;  // over the cone's width, for skirts
   const double mould_mm = 1e3 * test.mould.height_m, other_mm = mould_mm - heap.height.value;
   const double share = share_of_cone_width(test, heap);
   const auto is_heap = [](double one) { return one >= pancake && one <= widest; };
@@ -100,10 +100,10 @@ std::string in_words(const SlumpTest& test, const Heap& heap) {
          (share < paraboloid ? "between a flat cylinder and a paraboloid" : "between a paraboloid and a cone");
 }
 
-/// Nothing of a heap's volume is left for a width beyond this many cones': a peak on a skirt is below it.
+/// Largest width of a peak on a skirt, over the cone's width; beyond it, no volume is left.
 constexpr double widest_skirt = 1.5;
 
-/// Height and width that do not belong to one heap: why, and the width of the extreme one.
+/// Fault of a height and a width that cannot belong to one heap. `extreme_mm`: the limiting width.
 Fault contradiction(const SlumpTest& test, const Heap& heap, const std::string& why, double extreme_mm,
                     std::string remedy) {
   return {"measurements",
@@ -140,7 +140,7 @@ bool gives_flow_in_percent(const SlumpTest& test) {
 
 namespace {
 
-/// A slump that hardly is one may be in inches or centimetres.
+/// Note on a very small slump, which may be in inches or centimetres.
 std::string small_slump(const SlumpTest& test, const Measurement& height) {
   constexpr double small = 0.08;  // of the mould's height
   const double mould_mm = 1e3 * test.mould.height_m, slump_mm = mould_mm - height.value;
@@ -149,7 +149,7 @@ std::string small_slump(const SlumpTest& test, const Measurement& height) {
   return others.empty() ? "" : format("a slump of %.4g mm hardly is one; look at its unit: ", slump_mm) + others;
 }
 
-/// The mass of the mould's content and the density are one number.
+/// Checks the mass in the mould against the density.
 void check_mass(const SlumpTest& test, std::span<const Measurement> measurements, ReadingCheck& check) {
   constexpr double differs = 0.1;
   const Measurement* mass = first_of(measurements, {"fill.mass_kg"});
@@ -163,7 +163,7 @@ void check_mass(const SlumpTest& test, std::span<const Measurement> measurements
        format("one of both is wrong: the mass would be a density of %.4g kg/m3", mass->value / volume)});
 }
 
-/// Radians, where degrees are asked for.
+/// Reports angles that are probably in radians.
 void check_angle(std::span<const Measurement> measurements, ReadingCheck& check) {
   constexpr double least_deg = 3, most_rad = 1.6;
   const Measurement* angle = first_of(measurements, {"step1.angle_of_repose_deg"});
@@ -174,7 +174,7 @@ void check_angle(std::span<const Measurement> measurements, ReadingCheck& check)
                                                    : "an angle of repose in degrees"});
 }
 
-/// A heap that ends narrower than a circle never filled it.
+/// Reports a time to a width that the final heap does not reach.
 void check_time(const SlumpTest& test, std::span<const Measurement> measurements, ReadingCheck& check) {
   const Measurement* time = first_of(measurements, {"step1.t500_s"});
   const Measurement* width = first_of(measurements, {"step1.spread_mm", "step1.spread_orthogonal_mm"});
@@ -187,7 +187,7 @@ void check_time(const SlumpTest& test, std::span<const Measurement> measurements
                           "(apparatus.reading.flow.diameter_mm)"});
 }
 
-/// What may be taken for the flow of a table with several drops, and for a width.
+/// Notes on a flow in per cent taken for a width, and on readings after only the first of several drops.
 void check_flow(const SlumpTest& test, std::span<const Measurement> measurements, ReadingCheck& check) {
   const Measurement* flow = first_of(measurements, {"after_drops.spread_mm"});
   const double meant_mm = flow ? width_of_flow_mm(test, flow->value) : 0;
@@ -203,7 +203,7 @@ void check_flow(const SlumpTest& test, std::span<const Measurement> measurements
                                    test.drop->drops));
 }
 
-/// Cakes that are no thicker than a few grains are as thick as these.
+/// Note on cakes with a thickness of few grains, which the grain size determines.
 void check_cake(const SlumpTest& test, const Measurement& width, ReadingCheck& check) {
   constexpr double grains_thick = 1.5;
   const double cake_mm = 4e9 * volume_m3(test.mould) / (std::numbers::pi * width.value * width.value);

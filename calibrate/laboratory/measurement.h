@@ -7,18 +7,18 @@
 
 namespace pastefit {
 
-/// What a laboratory read off one test: mean and standard deviation of its repeats.
+/// Measured reading of a test: mean and standard deviation of its repeats.
 struct Measurement {
   std::string reading;            ///< key of the reading, e.g. "step1.height_mm"
   double value = 0;               ///< mean, in the unit of the key
-  double standard_deviation = 0;  ///< of one reading, in the unit of the key
+  double standard_deviation = 0;  ///< of a single reading, in the unit of the key
   int repeats = 1;
 };
 
-/// What a kind of test has to say of its readings, taken together.
+/// Result of checking all readings of a test together.
 struct ReadingCheck {
-  std::vector<std::string> notes;  ///< what a person should know of them: a sentence each, without a full stop
-  Faults faults;                   ///< readings that contradict each other, or the apparatus, beyond all noise
+  std::vector<std::string> notes;  ///< one sentence each, without a full stop
+  Faults faults;                   ///< contradictions between readings, or with the apparatus, beyond their deviations
 };
 
 }  // namespace pastefit

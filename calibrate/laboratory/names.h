@@ -9,14 +9,13 @@
 
 namespace pastefit {
 
-// How all files call the laws: the words for their choices, one row for one value, and their numbers, each with its
-// name. Cards have them in JSON, decks for LAMMPS in a line; the style that reads those (data/lammps) takes this header
-// along.
+// Names of the laws in all files: the words for their choices, and their constants. Cards have them in JSON, decks for
+// LAMMPS in a line. The LAMMPS style that reads those (data/lammps) includes this header.
 
 inline constexpr std::array<Named<SizeDistribution>, 3> size_distributions{
     {{"mono", SizeDistribution::mono}, {"uniform", SizeDistribution::uniform}, {"normal", SizeDistribution::normal}}};
 
-/// Laws bring their words with them.
+/// Takes the words from the laws.
 template <class... Laws>
 constexpr auto describe(TypeList<Laws...>) {
   return std::array{Named<std::remove_const_t<decltype(Laws::choice)>>{Laws::word, Laws::choice}...};
@@ -32,7 +31,7 @@ inline constexpr std::array<Named<BridgeFormation>, 2> bridge_formations{
 inline constexpr std::array<Named<FrictionBasis>, 3> friction_bases{
     {{"elastic", FrictionBasis::elastic}, {"total", FrictionBasis::total}, {"net", FrictionBasis::net}}};
 
-/// The word for a choice of a test.
+/// Word for a choice.
 template <class T, std::size_t N>
 std::string word_of(T value, const std::array<Named<T>, N>& words) {
   for (const auto& word : words)
@@ -40,8 +39,8 @@ std::string word_of(T value, const std::array<Named<T>, N>& words) {
   return "?";
 }
 
-// The numbers in SI, for an `ObjectReader`, an `ObjectWriter`, an `ObjectSchema` and the words of a deck alike. A
-// test's own `validate` knows the ranges that depend on other numbers.
+// Constants in SI, for an `ObjectReader`, an `ObjectWriter`, an `ObjectSchema` and a line of a deck. The test's
+// `validate` checks ranges that depend on other constants.
 
 inline constexpr Range any_number{-largest_quantity, largest_quantity, false, true};
 inline constexpr Range not_below_zero{0, largest_quantity, false, true};

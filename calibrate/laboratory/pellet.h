@@ -15,14 +15,14 @@
 
 namespace pastefit {
 
-// The pellet crush in the words of files and people: what calibrate/laboratory/test.h asks of a kind, besides
+// Pellet crush in files and messages: implements calibrate/laboratory/test.h, together with
 // calibrate/laboratory/granule_test.h.
 
 inline constexpr std::string_view kind_of(const PelletCrush&) {
   return "pellet";
 }
 
-/// The keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres a second.
+/// Keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres per second.
 template <class Fields>
 void describe_apparatus(Fields& apparatus, PelletCrush& test, Need need) {
   read_dimensions(apparatus, test, pellet_dimensions, need);
@@ -30,7 +30,7 @@ void describe_apparatus(Fields& apparatus, PelletCrush& test, Need need) {
 }
 std::vector<FilePlace> places_in_files(const PelletCrush&);
 
-/// Of the punch and the platen.
+/// Motion time of punch and platen.
 double moved_time_s(const PelletCrush& test);
 
 template <class Fields>
@@ -43,11 +43,11 @@ void describe_test(Fields& fields, PelletCrush& test) {
 nlohmann::ordered_json conditions_of(const PelletCrush& test);
 std::string conditions_in_words(const PelletCrush& test);
 
-/// The stress on the platen over the strain of the pellet, over the strength that was measured.
+/// Stress on the platen over strain of the pellet, with the measured strength.
 std::vector<Drawing> drawings_of(const PelletCrush& test, std::span<const SeenRun> runs,
                                  std::span<const Measurement> measured);
 
-/// Pellets whose stress still rose when the platen stopped. A line, or nothing.
+/// One-line remark on pellets whose stress still rose when the platen stopped; may be empty.
 std::string remarks_on(const PelletCrush& test, std::span<const Readings> runs);
 
 }  // namespace pastefit

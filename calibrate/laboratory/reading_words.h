@@ -4,7 +4,7 @@
 
 namespace pastefit {
 
-/// What a reading of laboratory files is, by its key there; empty if there is none.
+/// Meaning of a reading by its key in laboratory files; empty if unknown.
 std::string_view meaning_of_reading(std::string_view key);
 
 }  // namespace pastefit

@@ -15,14 +15,14 @@
 
 namespace pastefit {
 
-// The shear cell in the words of files and people: what calibrate/laboratory/test.h asks of a kind,
-// besides calibrate/laboratory/granule_test.h.
+// Shear cell in files and messages: implements calibrate/laboratory/test.h, together with
+// calibrate/laboratory/granule_test.h.
 
 inline constexpr std::string_view kind_of(const ShearCell&) {
   return "shear";
 }
 
-/// The keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres a second.
+/// Keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres per second.
 template <class Fields>
 void describe_apparatus(Fields& apparatus, ShearCell& test, Need need) {
   read_dimensions(apparatus, test, shear_dimensions, need);
@@ -35,7 +35,7 @@ void describe_apparatus(Fields& apparatus, ShearCell& test, Need need) {
 }
 std::vector<FilePlace> places_in_files(const ShearCell&);
 
-/// Of the base.
+/// Motion time of the base.
 double moved_time_s(const ShearCell& test);
 
 template <class Fields>
@@ -51,11 +51,11 @@ void describe_test(Fields& fields, ShearCell& test) {
 nlohmann::ordered_json conditions_of(const ShearCell& test);
 std::string conditions_in_words(const ShearCell& test);
 
-/// The stress that drags the lid along over the displacement of the base, over the stress that was measured.
+/// Shear stress on the lid over displacement of the base, with the measured stress.
 std::vector<Drawing> drawings_of(const ShearCell& test, std::span<const SeenRun> runs,
                                  std::span<const Measurement> measured);
 
-/// Beds whose stress still changed when the base stopped. A line, or nothing.
+/// One-line remark on beds whose stress still changed when the base stopped; may be empty.
 std::string remarks_on(const ShearCell& test, std::span<const Readings> runs);
 
 }  // namespace pastefit

@@ -10,10 +10,10 @@ namespace pastefit {
 namespace {
 
 constexpr std::size_t kPoints = 50;
-constexpr double kInterval = 0.1;  // [s] of the run between two looks
+constexpr double kInterval = 0.1;  // simulated time [s] between two outlines
 constexpr int kDigits = 3;
 
-/// From foot to foot.
+/// Outline from edge to edge.
 Sketch sketch_of(const Outline& heap) {
   const auto stands = [](double height) { return height > 0; };
   const auto& heights = heap.height_m;

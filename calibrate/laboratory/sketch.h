@@ -8,25 +8,25 @@
 
 namespace pastefit {
 
-/// What came of a simulation at a glance, a line of some fifty points to three digits.
+/// Thumbnail of a simulation: a line of about fifty points with three digits.
 struct Sketch {
-  bool heap = false;  ///< from the side [mm]; else the curve that the test draws, in its units
+  bool heap = false;  ///< heap outline [mm]; otherwise the test's curve, in its units
   std::vector<std::array<double, 2>> points;
 };
 
-/// Draws the sketch of one simulation.
+/// Makes the thumbnail of one simulation.
 class Sketcher {
  public:
-  /// A moment of the run; cheap, because few are looked at.
+  /// Takes a snapshot; cheap, because most are skipped.
   void see(const Test& test, const Snapshot& snapshot);
 
-  /// What was seen last, also of a run that failed or ended early; the curve where the test draws one. Without points
-  /// if nothing was seen.
+  /// The test's curve if it has one, otherwise the last outline, also after a failure or an early end. No points if no
+  /// outline was taken.
   Sketch sketch(const Outcome& outcome) const;
 
  private:
   Outline heap_;
-  double seen_s_ = -std::numeric_limits<double>::infinity();  // when, on the clock of its stage
+  double seen_s_ = -std::numeric_limits<double>::infinity();  // time of the last outline, on the clock of its stage
 };
 
 }  // namespace pastefit

@@ -13,7 +13,7 @@
 namespace pastefit {
 namespace {
 
-constexpr double diameter_mm = 2000;  // diameter in millimetres of a circle with a radius of one metre
+constexpr double diameter_mm = 2000;  // millimetres of diameter per metre of radius
 constexpr std::array<std::string_view, 3> series{"filling", "grains", "grains-second-drop"};
 
 double largest_pressure_pa(const SlumpTest& test) {
@@ -41,7 +41,7 @@ double grains_needed(const SlumpTest& test) {
 
 namespace {
 
-/// From the beginning of the lift.
+/// Spread over time from the beginning of the lift.
 void read_spread_curve(ObjectReader& reader, SlumpTest& test) {
   constexpr std::size_t fewest = 3;
   constexpr double longest_s = 600;
@@ -79,7 +79,7 @@ std::vector<FilePlace> places_in_files(const SlumpTest&) {
   add_places(places, mould_dimensions, "mould", "apparatus.mould");
   add_places(places, slump_dimensions);
   add_places(places, rhythm_dimensions, "drop", "apparatus.drop_plate");
-  places.pop_back();  // the plate itself stands behind all of its dimensions
+  places.pop_back();  // the last place is that of the plate itself
   add_places(places, plate_dimensions, "drop", "apparatus.drop_plate");
   add_places(places, flow_dimensions, "reading.flow", "apparatus.reading.flow");
   add_places(places, flank_dimensions, "reading.flank", "apparatus.reading.flank");

@@ -22,7 +22,7 @@
 
 namespace pastefit {
 
-// The slump test in the words of files and people: what calibrate/laboratory/test.h asks of a kind.
+// Slump test in files and messages: implements calibrate/laboratory/test.h.
 
 inline constexpr std::string_view kind_of(const SlumpTest&) {
   return "slump";
@@ -30,7 +30,7 @@ inline constexpr std::string_view kind_of(const SlumpTest&) {
 
 std::vector<Surface> surfaces_of(SlumpTest& test);
 
-/// Pours the grains into the mould. Tests of one laboratory file with the same seed and key share what that gives.
+/// Pours the grains into the mould. Tests of one laboratory file with the same seed and key share the packing.
 std::shared_ptr<const Packing> prepare(const SlumpTest& test, const RunOptions& options);
 std::string preparation_key(const SlumpTest& test);
 double grains_needed(const SlumpTest& test);
@@ -40,7 +40,7 @@ inline constexpr std::array<Named<HeightReading>, 2> height_readings{
 inline constexpr std::array<Named<TableMotion>, 2> table_motions{
     {{"hinged", TableMotion::hinged}, {"vertical", TableMotion::vertical}}};
 
-/// The keys of "apparatus" in laboratory and apparatus files, in millimetres.
+/// Keys of "apparatus" in laboratory and apparatus files, in millimetres.
 template <class Fields>
 void describe_apparatus(Fields& apparatus, SlumpTest& test, Need need) {
   apparatus.object({"mould", "a frustum, open above and below"}, need,
@@ -88,20 +88,20 @@ void describe_apparatus(Fields& apparatus, SlumpTest& test, Need need) {
   });
 }
 
-/// The outline of a heap seen from the side, which a reading of this kind is the distance from.
+/// Reads the measured outline from which the distance is a reading of this kind.
 void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test);
 
-/// Has the test take a reading of this kind, which the laboratory took (`ReadingKind::on_request`), where its apparatus
-/// does not say how: as by default.
+/// Enables a measured reading of this kind (`ReadingKind::on_request`) with default settings, unless the apparatus
+/// gives them.
 void ask_for(SlumpTest& test, const ReadingKind& kind);
 
-/// The apparatus' places in `validate`'s words and in those of laboratory and apparatus files.
+/// Paths of the apparatus in `validate`, and their places in laboratory and apparatus files.
 std::vector<FilePlace> places_in_files(const SlumpTest&);
 
-/// Of the mould, until it is off the heap.
+/// Motion time of the mould until it is off the heap.
 double moved_time_s(const SlumpTest& test);
 
-/// Complete and in SI, the unit in each key: read as written, every key must be there.
+/// Complete and in SI, with the unit in each key. Every key is required.
 template <class Fields>
 void describe_test(Fields& fields, SlumpTest& test) {
   fields.object({"mould", "a frustum"}, required,
@@ -141,48 +141,48 @@ void describe_test(Fields& fields, SlumpTest& test) {
 
 SlumpTest default_test(const SlumpTest&);
 
-/// Of the grains, such that the mould holds the bulk density.
+/// Density of a grain for which the mould has the measured bulk density.
 std::optional<double> grain_density_of(const SlumpTest& test, const Readings& means);
 
-/// The mould being filled, the test, and the second drop of its heap, each with a clock of its own.
+/// Filling of the mould, test, and second drop of its heap, each with its own clock.
 std::span<const std::string_view> series_of(const SlumpTest& test);
 std::size_t series_at(const SlumpTest& test, const Snapshot& snapshot);
 
-/// Of the drops of one heap the first counts.
+/// During the first drop only.
 std::optional<Outline> heap_at(const SlumpTest& test, const Snapshot& snapshot);
 
-/// The heap at rest after each step, for a photograph beside it.
+/// The heap at rest after each step, for comparison with a photograph.
 std::optional<NamedOutline> outline_at(const SlumpTest& test, const Snapshot& snapshot);
 
-/// The heap after each step from the side, in millimetres (calibrate/laboratory/slump_drawing.cpp).
+/// Side view of the heap after each step, in millimetres (calibrate/laboratory/slump_drawing.cpp).
 std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun> runs,
                                  std::span<const Measurement> measured);
 
-/// One standard deviation of the laboratory, but half a grain's radius at least: heaps of grains have no finer surface.
-/// Of the shift of the top where a heap has sheared off.
+/// One standard deviation of the measurement, but at least half a grain's radius, the roughness of a heap's surface.
+/// For the shift of the top: the limit of sheared-off heaps.
 double default_tolerance(const SlumpTest& test, const Measurement& measured);
 
-/// Friction shapes the width of a heap; its height alone cannot tell friction from strength.
+/// The height alone does not identify friction and strength; friction affects the width.
 std::string unseen_by(const SlumpTest& test, std::span<const std::string_view> readings,
                       std::span<const std::string_view> parameters);
 
-/// Fresh foams, pastes and heavy concretes, in moulds from a small tube to the cone of a dam's concrete.
+/// From fresh foams to heavy concretes, from a small tube to the cone for dam concrete.
 std::vector<Experience> experience_of(const SlumpTest& test);
 
-/// What a fit in this test was made for, for cards, and in words.
+/// Conditions for which a fit in this test is valid, for cards, and as text.
 nlohmann::ordered_json conditions_of(const SlumpTest& test);
 std::string conditions_in_words(const SlumpTest& test);
 
-/// How far its top shifted (`shear_index`): EN 12350-2 and ASTM C143 have the test of a heap that sheared off repeated.
+/// Shift of the top (`shear_index`): EN 12350-2 and ASTM C143 require tests of sheared-off heaps to be repeated.
 std::optional<double> rejection_index(const SlumpTest& test, const Readings& run);
 
 std::string_view rejected_runs(const SlumpTest& test);
 
-/// What a person should know of these runs besides their readings: heaps that sheared off. A line, or nothing.
+/// One-line remark on sheared-off heaps among these runs; may be empty.
 std::string remarks_on(const SlumpTest& test, std::span<const Readings> runs);
 
-/// Outlines and spread curves of a slump test that are in another frame or unit than the files': off a picture's edge,
-/// downwards, in centimetres, as a radius. Adds a fault for each.
+/// Adds a fault for each outline or spread curve in a frame or unit other than that of files: measured from a picture's
+/// edge, downwards, in centimetres, or as a radius.
 void check_curves(const SlumpTest& test, ReadingCheck& check);
 
 }  // namespace pastefit

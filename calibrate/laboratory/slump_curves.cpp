@@ -15,11 +15,11 @@ namespace {
 
 struct OtherUnit {
   const char* name;
-  double factor;  ///< of a length that was taken for millimetres
+  double factor;  ///< for a length given in this unit, taken for millimetres
 };
 constexpr std::array<OtherUnit, 3> other_units{{{"cm", 10}, {"in", 25.4}, {"m", 1000}}};
 
-/// An outline in the order of x, seen from outside.
+/// Outline sorted by x.
 struct SeenOutline {
   explicit SeenOutline(std::vector<OutlinePoint> given) : points(std::move(given)) {
     std::ranges::sort(points, {}, [](const auto& point) { return point[0]; });
@@ -29,7 +29,7 @@ struct SeenOutline {
   double right() const { return points.back()[0]; }
   double middle() const { return 0.5 * (left() + right()); }
 
-  /// Of the body of revolution about the middle that has both halves as its outline, on the average.
+  /// Volume of revolution about the middle, mean of both halves.
   double volume_m3() const {
     double sum = 0;
     for (std::size_t k = 1; k < points.size(); ++k) {
@@ -40,7 +40,7 @@ struct SeenOutline {
     return std::numbers::pi * sum;
   }
 
-  /// Mean height of the points whose distance from the middle, over half of the width, lies in this range.
+  /// Mean height of the points whose distance from the middle, over half of the width, is in this range.
   double mean_height(double from, double to) const {
     double sum = 0;
     int count = 0;
@@ -57,7 +57,7 @@ struct SeenOutline {
   double top = 0;
 };
 
-/// The unit in which lengths that hold this share of the mould's volume would hold about all of it.
+/// Unit for which lengths with this share of the mould's volume would give about all of it.
 const OtherUnit* unit_for_volume(double share) {
   constexpr double least = 0.5, most = 2;
   for (const OtherUnit& unit : other_units)
@@ -92,7 +92,7 @@ void check_outline(const std::string& place, const std::vector<OutlinePoint>& po
          format("in mm: as %s the points would hold %.2g of it", unit->name, share * std::pow(unit->factor, 3))});
 }
 
-/// Widths from the beginning of the lift: the first is that of the mould.
+/// Checks widths from the beginning of the lift: the first must be that of the mould.
 void check_spread_curve(const std::string& place, const std::vector<SpreadPoint>& curve, const SlumpTest& test,
                         Faults& faults) {
   constexpr double room = 0.1;     // of the base

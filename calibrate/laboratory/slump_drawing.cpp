@@ -12,11 +12,11 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kStep = 2;  // [mm] between two points of a drawn outline
-// [share of the mould's height] between the lines of the lengths below the table, and of those beside the heap.
+constexpr double kStep = 2;  // [mm] between two points of an outline
+// Distances of dimension lines [share of the mould's height], below the table and beside the heap.
 constexpr double kBelow = 0.09, kBeside = 0.12;
 
-/// The heap after one step, and the readings of it.
+/// Drawing of the heap after one step, with its readings.
 class HeapDrawing {
  public:
   HeapDrawing(const SlumpTest& test, std::string step, std::span<const SeenRun> runs,
@@ -63,7 +63,7 @@ class HeapDrawing {
     drawing_.lines.push_back({"table", DrawnBy::apparatus, {{-table, 0}, {table, 0}}});
   }
 
-  /// Every heap, and the mean of those that a laboratory would accept.
+  /// Draws every heap, and the mean of the accepted ones.
   void draw_simulations() {
     if (outlines_.empty()) return;
     for (const Seen& seen : outlines_) {
@@ -90,7 +90,7 @@ class HeapDrawing {
     drawing_.lines.push_back(std::move(line));
   }
 
-  /// The heights stand at both sides of the heap, the laboratory's on the left.
+  /// Draws heights at both sides of the heap, measured ones on the left.
   void draw_heights() {
     double beside = 1.1 * half_width_;
     for (const char* name : {"height_mm", "height_axis_mm", "height_max_mm"}) {
@@ -103,7 +103,7 @@ class HeapDrawing {
     }
   }
 
-  /// Widths stand below the table, the laboratory's above the simulated one.
+  /// Draws widths below the table, measured ones above simulated ones.
   void draw_widths() {
     double z = 0;
     for (const char* name : {"spread_mm", "spread_orthogonal_mm"}) {
@@ -115,7 +115,7 @@ class HeapDrawing {
     }
   }
 
-  /// Of the plateau: how it sags over its window, and its width at 0.8 of the height of the middle.
+  /// Draws the sag of the plateau over its window, and its width at 0.8 of the height of the middle.
   void draw_top() {
     const double window = mm * test_.reading.sag_window_m;
     if (measurement("plateau_sag_mm"))
@@ -136,8 +136,8 @@ class HeapDrawing {
       });
   }
 
-  /// Two straight lines at the angle of repose, over the part of the flank on which it is read: through its middle on
-  /// the mean of the heaps, or, before one was simulated, about the cone that holds what the mould holds.
+  /// Draws two straight lines at the angle of repose along the part of the flank on which it is read: through its
+  /// middle on the mean heap, or, before any simulation, on the cone with the mould's volume.
   void draw_flanks() {
     const auto& flank = test_.reading.flank;
     if (!flank || !measurement("angle_of_repose_deg")) return;
@@ -160,7 +160,7 @@ class HeapDrawing {
     });
   }
 
-  /// Of the accepted heaps [mm].
+  /// Mean height of the accepted heaps [mm].
   double mean_height_at(double x) const {
     double sum = 0, count = 0;
     for (const Seen& seen : outlines_)
@@ -171,7 +171,7 @@ class HeapDrawing {
     return count > 0 ? sum / count : 0;
   }
 
-  /// Half the width of the mean outline of the accepted heaps at this height [mm].
+  /// Half the width of the accepted heaps' mean outline at this height [mm].
   std::optional<double> radius_of_runs(double height) const {
     double left = 0, right = 0;
     while (left < half_width_ && mean_height_at(-left) >= height) left += kStep;
@@ -186,7 +186,7 @@ class HeapDrawing {
     return mean_reading(accepted_, step_ + "." + name);
   }
 
-  /// Calls `draw(by, value, standard deviation)` for what the laboratory and what the simulations say of a reading.
+  /// Calls `draw(by, value, standard deviation)` for the measured and the simulated value of a reading.
   template <class Draw>
   void each_value(const std::string& name, const Draw& draw) const {
     if (const Measurement* one = measurement(name)) draw(DrawnBy::laboratory, one->value, one->standard_deviation);
@@ -200,14 +200,14 @@ class HeapDrawing {
 
   const SlumpTest& test_;
   std::string step_;
-  std::vector<SeenRun> accepted_;  // by a laboratory: means are over these
+  std::vector<SeenRun> accepted_;  // means use these
   std::span<const Measurement> measured_;
   struct Seen {
     const Outline* outline = nullptr;
     bool accepted = true;
   };
-  std::vector<Seen> outlines_;  // of every run
-  double half_width_ = 0;       // of what is drawn [mm]
+  std::vector<Seen> outlines_;  // all runs
+  double half_width_ = 0;       // of the drawing [mm]
   Drawing drawing_;
 };
 
@@ -215,7 +215,7 @@ class HeapDrawing {
 
 namespace {
 
-/// The spread against time, where it was simulated, over what was measured.
+/// Spread over time, simulated and measured.
 std::optional<Drawing> drawing_of_flow(const SlumpTest& test, std::span<const SeenRun> runs,
                                        std::span<const Measurement> measured) {
   const bool any = std::ranges::any_of(runs, [](const SeenRun& run) { return run.curve.has_value(); });

@@ -10,8 +10,8 @@
 
 namespace pastefit {
 
-// What tests of all kinds have in their JSON, in SI, for an `ObjectReader`, an `ObjectWriter` and an `ObjectSchema`
-// alike. The test's own `validate` knows the ranges that depend on other numbers.
+// Common JSON of all kinds of tests, in SI, for an `ObjectReader`, an `ObjectWriter` and an `ObjectSchema`. The test's
+// `validate` checks ranges that depend on other numbers.
 
 template <class Fields, class Grains>
 void describe_grains(Fields& fields, Grains& grains) {
@@ -25,7 +25,7 @@ void describe_grains(Fields& fields, Grains& grains) {
   fields.number({"largest_m", "largest radius"}, grains.largest_m, not_below_zero, required);
 }
 
-/// What tests of one material have in common.
+/// Properties shared by tests of one material.
 template <class Fields, class Material>
 void describe_material(Fields& fields, Material& material) {
   fields.number({"bulk_density_kg_m3", "as in the laboratory file"}, material.bulk_density_kg_m3, above_zero, required);
@@ -34,10 +34,10 @@ void describe_material(Fields& fields, Material& material) {
   fields.object({"contact", "the laws in SI, to type into another program"}, required,
                 [&](auto& contact) { describe_contact(contact, material.contact); });
 }
-/// Its keys.
+/// Keys of `describe_material`.
 inline constexpr std::array of_material{"bulk_density_kg_m3", "grains", "contact"};
 
-/// All of it.
+/// Everything in a `Specimen`.
 template <class Fields, class Specimen>
 void describe_specimen(Fields& fields, Specimen& specimen) {
   describe_material(fields, specimen);
@@ -45,8 +45,8 @@ void describe_specimen(Fields& fields, Specimen& specimen) {
                  required);
 }
 
-/// A surface of a test's apparatus that grains touch. Its parameters are `<name>_friction`,
-/// `<name>_rolling_friction` and `<name>_cohesion_factor`.
+/// Surface of the apparatus in contact with grains. Its parameters are `<name>_friction`, `<name>_rolling_friction` and
+/// `<name>_cohesion_factor`.
 struct Surface {
   std::string_view name;
   WallContact& contact;

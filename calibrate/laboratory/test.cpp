@@ -47,8 +47,7 @@ Faults validate(const Test& test) {
 
 namespace {
 
-/// The same fault of a field in SI for the key of a file: in millimetres or degrees, where the key is, and of a
-/// diameter.
+/// Converts a fault of a field in SI to the unit of a file's key: millimetres, degrees, or a diameter.
 Fault in_unit_of(std::string_view field, Fault fault) {
   const std::string& key = fault.where;
   if (!fault.range) return fault;

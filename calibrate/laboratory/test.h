@@ -20,9 +20,9 @@
 
 namespace pastefit {
 
-/// A laboratory test of any kind. To add a kind: a folder in core/apparatus with the apparatus as a value that begins
-/// with a `Specimen`, a pair of files here with what is asked of each kind below (calibrate/laboratory/slump.h says
-/// what each does, calibrate/laboratory/default_answers.h what a kind need not say), and its row in this list.
+/// Laboratory test of any kind. To add a kind: a folder in core/apparatus with the apparatus as a value that begins
+/// with a `Specimen`; a pair of files here with the functions below (calibrate/laboratory/slump.h documents them,
+/// calibrate/laboratory/default_answers.h has the optional ones); and a row in this list.
 using Test = std::variant<SlumpTest, DropTest, PelletCrush, ShearCell>;
 
 inline Specimen& specimen_of(Test& test) {
@@ -33,7 +33,7 @@ inline const Specimen& specimen_of(const Test& test) {
   return std::visit([](const auto& one) -> const Specimen& { return one; }, test);
 }
 
-// What each kind answers, of a test of any kind. Not of one by itself: what a kind lacks does not compile.
+// Dispatch to the kind of a test. Not declared for a single kind, so that a missing function does not compile.
 
 template <class T>
 concept AnyKind = std::same_as<T, Test>;
@@ -152,7 +152,7 @@ std::vector<Experience> experience_of(const AnyKind auto& test) {
   return std::visit([](const auto& one) { return experience_of(one); }, test);
 }
 
-/// The fields of the apparatus, and where laboratory files have them; an object behind those that it holds.
+/// Fields of the apparatus and their places in laboratory files; objects follow their members.
 std::vector<FilePlace> places_in_files(const AnyKind auto& test) {
   return std::visit([](const auto& one) { return places_in_files(one); }, test);
 }
@@ -161,63 +161,63 @@ double default_tolerance(const AnyKind auto& test, const Measurement& measured) 
   return std::visit([&](const auto& one) { return default_tolerance(one, measured); }, test);
 }
 
-/// Whether the standards have a laboratory reject this run and repeat it.
+/// True if the standards reject this run, so that the test must be repeated.
 bool is_rejected(const Test& test, const Readings& run);
-/// The runs of a test that a laboratory would accept (`judge/verdict.h`).
+/// Indices of the accepted runs (`judge/verdict.h`).
 std::vector<std::size_t> accepted(const Test& test, std::span<const Readings> runs);
 
 void read_apparatus(ObjectReader& apparatus, Test& test, Need need);
 
-/// Every fault that keeps the test from being simulated; places are paths in its JSON.
+/// Returns every fault that prevents the simulation; places are paths in the test's JSON.
 Faults validate(const Test& test);
 
-/// The same, with places in the words of laboratory and apparatus files, e.g. "apparatus.mould.height_mm".
+/// `validate` with places in laboratory and apparatus files, e.g. "apparatus.mould.height_mm".
 Faults validate_in_file_words(const Test& test);
 
-/// The words of all kinds, in the order of `Test`.
+/// Words for all kinds, in the order of `Test`.
 std::vector<std::string_view> kinds_of_tests();
 
-/// A test of this kind with default values; nothing if there is no such kind.
+/// Test of this kind with default values; nothing if unknown.
 std::optional<Test> test_of_kind(std::string_view kind);
 
-/// The fault of a word that no kind has.
+/// Fault of an unknown kind.
 Fault no_such_kind(std::string where, std::string_view word);
 
-/// The names of all starting files: "lab" and "study" of the first kind, of others with their word before.
+/// Names of all starting files: "lab" and "study" for the first kind, prefixed by their word for others.
 std::vector<std::string> template_names();
 
-/// A commented starting file (laboratory/templates), fit to be read as it is; the study names its laboratory file
-/// "lab.json", beside it. Nothing if there is none of that name.
+/// Commented starting file (laboratory/templates), valid as it is; the study refers to "lab.json" in its folder.
+/// Nothing for unknown names.
 std::optional<std::string> template_text(std::string_view name);
 
-/// "lab" or "study" for an apparatus preset that has starting files of its own: the lifted cylinder, whose tests are of
-/// other materials than pastes. Nothing for others.
+/// "lab" or "study" for an apparatus preset with its own starting files: the lifted cylinder, whose tests are of
+/// materials other than pastes. Nothing for other presets.
 std::optional<std::string> template_text_of_mould(std::string_view name, std::string_view preset);
 
-/// The readings of all kinds of tests, with the default values.
+/// Readings of all kinds of tests, with default values.
 std::vector<ReadingKind> all_reading_kinds();
 
-/// The test as JSON, complete and in SI, the unit in each key: the canonical form for cards and stored evaluations.
-/// The same test gives the same text (keys sorted, doubles written so that they read back bit for bit).
-/// Requirement: every number is finite.
+/// Converts a test to JSON, complete and in SI, with the unit in each key: the canonical form for cards and stored
+/// evaluations. Equal tests give equal text (keys sorted, doubles with round-trip precision). Requirement: every number
+/// is finite.
 nlohmann::json to_json(const Test& test);
 
-/// Reads what `to_json` writes; every key must be there, but the kind, without which it is a slump test.
-/// Errors: every fault of form, or else every fault that `validate` finds; places are paths in the JSON.
+/// Parses the result of `to_json`. Every key is required except the kind; default: slump test. Errors: every fault of
+/// form, otherwise every fault of `validate`; places are paths in the JSON.
 Result<Test> test_from_json(const nlohmann::json& document);
 
-/// The JSON schema of the same, one form for each kind; what they share goes to the definitions of `schema`.
+/// JSON schema of `to_json`, one form per kind; common parts go to the definitions of `schema`.
 nlohmann::ordered_json schema_of_tests(ObjectSchema& schema);
 
-/// The JSON schema of "apparatus" in laboratory files, where it may have a preset, and apparatus files.
+/// JSON schema of "apparatus" in laboratory files, which may name a preset, and in apparatus files.
 nlohmann::ordered_json schema_of_apparatus(ObjectSchema& schema, bool presets);
 
-/// The part of a JSON value that differs from the default one: of an object its members that do, each likewise; whole
-/// lists and numbers. Two values with the same part of the same default value are the same.
+/// Part of a JSON value that differs from the default: of objects the differing members, recursively; lists and numbers
+/// as a whole. Values with equal differing parts from the same default are equal.
 nlohmann::json differing_part(const nlohmann::json& value, const nlohmann::json& by_default);
 
-/// What tells the test from others: its kind, and the part of its JSON that differs from that of the default. A field
-/// that is added with its default value gives it no other name.
+/// Identity of a test: its kind, and the part of its JSON that differs from the default. A new field with its default
+/// value does not change it.
 nlohmann::json identity_of(const Test& test);
 
 }  // namespace pastefit

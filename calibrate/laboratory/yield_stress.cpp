@@ -15,9 +15,9 @@ constexpr int halvings = 60;
 constexpr double largest_strength = 100;  // over the yield stress of the height
 constexpr std::string_view height_formula = "Schowalter 1998", spread_formula = "Roussel 2005",
                            beyond_spread_formula = "Roussel 2005 (heap not flat)";
-constexpr double flat = 1.0 / 3;  // height over that of the mould up to which a heap counts as a flat cake
+constexpr double flat = 1.0 / 3;  // largest height of a flat cake over that of the mould
 
-/// Stress in the depth z below the top of a frustum, over rho g H; both in heights of the mould.
+/// Shear stress at depth z below the top of a frustum, over rho g H; lengths in heights of the mould.
 double stress_at(double al, double z) {
   const double wider = 1 + z / al;
   return al / 6 * (wider - 1 / (wider * wider));
@@ -49,7 +49,7 @@ std::optional<double> kept_height_m(const Mould& mould, double density_kg_m3, do
 }
 
 std::optional<double> yield_stress_of_height_pa(const Mould& mould, double density_kg_m3, double height_m) {
-  double low = 0, high = density_kg_m3 * gravity * mould.height_m;  // twice of what a cylinder needs to stand
+  double low = 0, high = density_kg_m3 * gravity * mould.height_m;  // twice what supports a cylinder
   const auto most = kept_height_m(mould, density_kg_m3, high);
   if (!most || !(height_m > 0) || !(height_m < mould.height_m)) return std::nullopt;
   for (int k = 0; k < halvings; ++k) {

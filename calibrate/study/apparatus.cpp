@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr Range grain_length{0, 500, true}, bulk_density{100, 10000}, customary_deviation{1e-6, 10000};
 
-/// A length that the radii of some distributions are given by.
+/// Length that defines the radii of some size distributions.
 struct GrainLength {
   std::string_view key, meaning;
   double GrainSizes::*value;
@@ -66,7 +66,7 @@ void describe_customary(Fields& reading, CustomaryReading& one, const Range& ran
 
 constexpr std::array not_simulated{"readings", "caution"};  // keys of apparatus files
 
-/// The files of presets by their names, of those of one name the first.
+/// Preset files by name; the first of each name.
 std::map<std::string, fs::path> preset_files(const fs::path& folder) {
   std::map<std::string, fs::path> files;
   for (const fs::path& candidate : apparatus_folders(folder)) {
@@ -100,7 +100,7 @@ std::optional<Apparatus> read_preset(const std::string& name, const fs::path& fo
   return std::nullopt;
 }
 
-/// "readings": by the keys of laboratory files.
+/// Reads "readings", whose keys are those of laboratory files.
 void read_customary(ObjectReader& document, Apparatus& apparatus) {
   document.object("readings", Need::optional, [&](ObjectReader& readings) {
     for (const ReadingKind& kind : reading_kinds(apparatus.test)) {
@@ -259,7 +259,7 @@ std::optional<Apparatus> read_apparatus(ObjectReader& document, Test& test, cons
 
 void read_material(ObjectReader& document, Test& test, const std::function<void(ObjectReader& material)>& further) {
   const json* content = document.content("material");
-  const bool density = content && content->is_number();  // a bare number can be nothing else
+  const bool density = content && content->is_number();  // a bare number is the density
   document.object(
       "material", Need::required,
       [&](ObjectReader& material) {
@@ -319,7 +319,7 @@ Result<Apparatus> apparatus_from_json(const json& document) {
     if (faults.size() == before)
       for (Fault& fault : validate_in_file_words(apparatus.test)) faults.push_back(std::move(fault));
     if (faults.size() == before)
-      read_customary(reader, apparatus);  // what a reading may be depends on the apparatus
+      read_customary(reader, apparatus);  // the possible readings depend on the apparatus
     else
       reader.known("readings");
   }

@@ -15,7 +15,7 @@ using nlohmann::json;
 
 constexpr Range kAny{-1e9, 1e9};
 constexpr Range kLength{0, 1e3, true};
-constexpr Range kModulus{1, 1e30, true};  // stiffer than anything: a rigid wall
+constexpr Range kModulus{1, 1e30, true};  // the largest value stands for a rigid wall
 constexpr Range kRestitution{0, 1, true};
 constexpr Range kShare{0, 10};
 
@@ -35,7 +35,7 @@ void read_direction(ObjectReader& reader, std::string_view key, Vec3& target) {
     reader.fault(key, "is no direction", "a vector that is not zero, e.g. [0, 0, 1]");
 }
 
-/// A vector, or a speed and the angle between the downward vertical and the direction, towards +x.
+/// Reads a vector, or a speed with the angle from the downward vertical towards +x.
 void read_velocity(ObjectReader& reader, Vec3& target) {
   const json* given = reader.content("velocity_m_s");
   if (!given || !given->is_object()) {

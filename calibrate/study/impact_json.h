@@ -11,12 +11,12 @@ namespace pastefit {
 
 class ObjectReader;
 
-/// Reads the fields of an impact (schema: `impact` in data/schema/case.schema.json) into `test`; faults go to the
-/// reader's. `duration_contacts` gives the duration in Hertz collisions of the first grain and its partner: the second
-/// grain, or the first wall. The `reference_radius_m` is the first grain's unless it is given.
+/// Reads the fields of an impact (schema: `impact` in data/schema/case.schema.json) into `test`; appends faults to
+/// those of the reader. `duration_contacts` is the duration in Hertz collisions of the first grain with the second
+/// grain or, without one, the first wall. Default of `reference_radius_m`: the radius of the first grain.
 void read_impact(ObjectReader& reader, Impact& test);
 
-/// A file's content ("format": "pastefit-impact-1") as an impact that can be run. Errors: every fault with its place.
+/// Parses a file's content ("format": "pastefit-impact-1"). Errors: every fault, with its place.
 Result<Impact> impact_from_json(const nlohmann::json& document);
 
 }  // namespace pastefit

@@ -16,7 +16,7 @@ namespace pastefit {
 
 namespace {
 
-/// Sizes that are far from those of such tests are mostly in another unit.
+/// Asks about sizes far outside the usual range, which are mostly in another unit.
 void ask_about_sizes(const Test& test, Questions& questions) {
   for (const auto& [place, value, smallest, largest] : experience_of(test)) {
     if (value >= smallest && value <= largest) continue;
@@ -29,7 +29,7 @@ void ask_about_sizes(const Test& test, Questions& questions) {
   }
 }
 
-/// Whether the document has the key at the end of this place, "apparatus.mould.height_mm"; readings are no such places.
+/// True if the document has the key at this place, e.g. "apparatus.mould.height_mm"; false for readings.
 bool has_place(const nlohmann::json& document, std::string_view place) {
   const nlohmann::json* object = &document;
   while (object->is_object()) {
@@ -43,7 +43,7 @@ bool has_place(const nlohmann::json& document, std::string_view place) {
   return false;
 }
 
-/// Says of a number which the file does not give that it is the default, or the preset's.
+/// Marks numbers that the file does not give as defaults, or as values of the preset.
 Faults with_defaults_named(Faults faults, const nlohmann::json& document, bool preset) {
   for (Fault& fault : faults) {
     const bool key = fault.where.starts_with("apparatus.") || fault.where.starts_with("grains.");
@@ -54,7 +54,7 @@ Faults with_defaults_named(Faults faults, const nlohmann::json& document, bool p
   return faults;
 }
 
-/// Of conditions that a reading depends on and the file leaves to its preset.
+/// Notes on conditions that affect a reading and are taken from the preset.
 std::vector<std::string> notes_on_conditions(const Lab& lab) {
   std::vector<std::string> notes;
   const auto kinds = reading_kinds(lab.test);
@@ -67,7 +67,7 @@ std::vector<std::string> notes_on_conditions(const Lab& lab) {
   return notes;
 }
 
-/// What the formulas say that the laboratory's yield stress would make of the test.
+/// Note on the readings that the formulas predict from the measured yield stress.
 std::string note_on_yield_stress(const Lab& lab) {
   const auto predicted = readings_of_fluid(lab.test, lab.yield_stress->value);
   std::string readings;
@@ -86,7 +86,7 @@ void describe_repeats(Fields& fields, Lab::Repeats& repeats) {
                  0, 1000, Need::required);
 }
 
-/// "repeats": how many heaps were made, and how many of them sheared off.
+/// Reads "repeats": number of heaps, and number of sheared-off heaps.
 void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats) {
   if (!rejection_index(lab.test, {})) {
     document.refuse("repeats", "a " + std::string(kind_of(lab.test)) + " test has no heap that shears off",
@@ -114,7 +114,7 @@ void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats)
           "leave out the readings of heaps that sheared off, or count them in \"repeats\"");
 }
 
-/// "mix": numbers under names that the laboratory chooses.
+/// Reads "mix": numbers under names chosen by the user.
 void read_mix(ObjectReader& document, std::vector<MixVariable>& mix) {
   if (!document.has("mix")) return document.known("mix");
   document.object(
@@ -162,7 +162,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     read_mix(reader, lab.mix);
     read_grains(reader, lab.test, preset ? Need::optional : Need::required);
     lab.test = with_default_contact(lab.test);
-    // A test with a faulty section would only be judged by values nobody gave.
+    // After a fault in a section, the checks would only report defaults.
     const auto judge_test = [&] {
       if (values_are_good(faults, before))
         for (Fault& fault : with_defaults_named(validate_in_file_words(lab.test), document, preset.has_value()))
@@ -171,7 +171,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     judge_test();
     if (values_are_good(faults, before)) ask_about_sizes(lab.test, questions);
     lab.measurements = read_measurements(reader, lab.test, lab.yield_stress, questions);
-    judge_test();  // a reading has the test take it, by default in a way that the apparatus may not admit
+    judge_test();  // a reading enables its measurement, whose defaults may not suit the apparatus
     read_repeats(reader, lab, lab.repeats);
     for (const FilePlace& one : places_in_files(lab.test))
       if (one.often_unstated && has_place(document, one.place) && std::ranges::count(assumed, one.place) == 0)

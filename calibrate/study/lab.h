@@ -11,19 +11,19 @@
 
 namespace pastefit {
 
-/// What of a laboratory file can be read, but looks like a slip: a number in another unit, a misread repeat. It is a
-/// fault until its place stands in the file's "confirmed", and a note from then on.
+/// Values in a laboratory file that are readable but suspicious, e.g. a number in another unit or a misread repeat.
+/// Each is a fault, or only a note if its place is listed in "confirmed" of the file.
 class Questions {
  public:
-  /// Reads "confirmed" of the file.
+  /// Reads "confirmed".
   explicit Questions(ObjectReader& document);
 
-  /// `what` is said of the place; `remedy`: what to do if it is a slip.
+  /// Reports a suspicious value. `what`: end of a sentence about the place. `remedy`: what to do if it is a slip.
   void ask(const std::string& place, std::string what, std::string remedy);
-  /// What a person should know, but need not confirm.
+  /// Adds a note that needs no confirmation.
   void note(const std::string& place, std::string what) { notes_.push_back(place + " " + std::move(what)); }
 
-  /// A sentence each, without a full stop.
+  /// One sentence per note, without a full stop.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
@@ -31,28 +31,27 @@ class Questions {
   std::vector<std::string> confirmed_, notes_;
 };
 
-/// "yield_stress_pa" of the object "material", as {"value", "standard_deviation"} or {"repeats": [...]}: what a vane or
-/// another rheometer read. Fault: in a test whose readings say nothing of a yield stress.
+/// Reads "yield_stress_pa" of "material", {"value", "standard_deviation"} or {"repeats": [...]}: from a vane or another
+/// rheometer. Fault: no reading of this test is related to a yield stress.
 std::optional<Measurement> read_yield_stress(ObjectReader& material, const Test& test, Questions& questions);
 
-/// What a fluid with this yield stress would read in the test, as the parts of "measurements"; empty where no formula
-/// predicts anything.
+/// Predicted readings of a fluid with this yield stress, as members of "measurements"; empty without a formula.
 std::string predicted_in_words(const Test& test, double yield_stress_pa);
 
-/// The object "measurements": each reading with {"value", "standard_deviation"} or {"repeats": [...]}.
-/// Repeats give mean and sample standard deviation; "standard_deviation" beside them is its lower bound.
-/// A slump becomes the height that is left, mould height minus slump.
+/// Reads "measurements": each reading with {"value", "standard_deviation"} or {"repeats": [...]}.
+/// Repeats give mean and sample standard deviation; "standard_deviation" beside them is its lower bound. A slump
+/// becomes the height of the heap, mould height minus slump. A profile, {"points": [[x_mm, z_mm], ...],
+/// "standard_deviation"}, becomes the outline of `test`; its reading is the root mean square difference from it, with
+/// the measured value 0. Repeats that differ by more than the published repeatability of the test are asked about.
 /// Faults: readings that contradict each other beyond their deviations (a heap that is higher after the drop), a
-/// reading the apparatus cannot give, a value that the test cannot have, the same reading twice, no spread of repeats
-/// and no standard deviation, no reading at all. A profile, {"points": [[x_mm, z_mm], ...], "standard_deviation"},
-/// becomes the outline of `test`, and its reading is the root mean square difference from it, measured as 0.
-/// Repeats that differ by more than the test's published repeatability are asked about.
-/// Where there is no reading, but a yield stress, the fault says what that predicts.
+/// reading that the apparatus does not have, an impossible value, a duplicate reading, neither spread of repeats nor
+/// standard deviation, no reading at all; if there is a yield stress instead, the fault states the readings it
+/// predicts.
 std::vector<Measurement> read_measurements(ObjectReader& document, Test& test,
                                            const std::optional<Measurement>& yield_stress, Questions& questions);
 
-/// A laboratory file's content as a `Lab`; `folder` is where the file lies, which is where its preset is looked for.
-/// Errors: every fault of the content, each with its place.
+/// Parses the content of a laboratory file. `folder`: where the file is, and where its preset is looked for. Errors:
+/// every fault, with its place.
 Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem::path& folder);
 
 }  // namespace pastefit

@@ -28,8 +28,8 @@ void Questions::ask(const std::string& place, std::string what, std::string reme
 
 namespace {
 
-/// Standard deviations of a reading, in its unit; what is smaller is a slip, and would make a weight of it without
-/// bound.
+/// Standard deviations of a reading, in its unit. Smaller ones are slips and would give the reading an unbounded
+/// weight.
 constexpr Range deviations{1e-6, 10000};
 
 std::string advice_on_deviation(const ReadingKind& kind) {
@@ -48,22 +48,22 @@ void average(const std::vector<double>& repeats, Measurement& measurement) {
   measurement.standard_deviation = std::sqrt(squares / (count - 1));
 }
 
-/// The most by which so many repeats differ in 95 of 100 cases, over their deviation (critical range factor f(n) of
-/// ISO 5725-6); of more than 20 it hardly grows.
+/// Critical range of n repeats over their standard deviation, exceeded in 5 of 100 cases (factor f(n) of ISO 5725-6);
+/// nearly constant above n = 20.
 double critical_range(std::size_t repeats) {
   static constexpr std::array<double, 19> factors{2.8, 3.3, 3.6, 3.9, 4.0, 4.2, 4.3, 4.4, 4.5, 4.6,
                                                   4.6, 4.7, 4.7, 4.8, 4.8, 4.9, 4.9, 5.0, 5.0};
   return factors[std::min(repeats - 2, factors.size() - 1)];
 }
 
-/// The repeat that is farthest from the middle one.
+/// Repeat with the largest distance from the median.
 double farthest_of(std::vector<double> repeats) {
   std::ranges::sort(repeats);
   const double middle = (repeats[(repeats.size() - 1) / 2] + repeats[repeats.size() / 2]) / 2;
   return std::abs(repeats.front() - middle) > std::abs(repeats.back() - middle) ? repeats.front() : repeats.back();
 }
 
-/// Twice the critical range and more is no chance.
+/// Asks about repeats whose range is at least twice the critical range.
 void judge_scatter(const std::string& place, const ReadingKind& kind, const std::vector<double>& repeats,
                    Questions& questions) {
   if (kind.published_deviation == 0) return;
@@ -113,7 +113,7 @@ std::string cut_short(std::string text) {
   return text;
 }
 
-/// How to write a reading that is there as a bare number or list.
+/// Correct form of a reading that is given as a bare number or list.
 std::string form_of(const ReadingKind& kind, const nlohmann::json* content) {
   const std::string deviation = kind.published_deviation > 0 ? format("%.2g", kind.published_deviation) : "5";
   if (content && content->is_number())
@@ -125,8 +125,8 @@ std::string form_of(const ReadingKind& kind, const nlohmann::json* content) {
                            : R"({"value": ..., "standard_deviation": ...}, or {"repeats": [...]})";
 }
 
-/// Readings of one heap, or of one before and after the drop, have an order that no heap turns round. What differs from
-/// heap to heap is the same in both; so a single deviation is much.
+/// Checks the order of readings of one heap, e.g. before and after the drop. Variation between heaps affects both
+/// readings alike, so one standard deviation is a wide margin.
 void check_orders(ObjectReader& document, std::span<const ReadingKind> kinds,
                   const std::vector<Measurement>& measurements) {
   constexpr double sure = 1;  // standard deviations of the difference of two means
@@ -146,7 +146,7 @@ void check_orders(ObjectReader& document, std::span<const ReadingKind> kinds,
   }
 }
 
-/// One fault for all readings of another kind of test, if there are any; true if so.
+/// Reports all readings of other kinds of tests as one fault; true if there are any.
 bool refuse_strange(ObjectReader& reader, const Test& test, std::span<const ReadingKind> own) {
   std::string strange;
   std::string_view other;
@@ -167,7 +167,7 @@ bool refuse_strange(ObjectReader& reader, const Test& test, std::span<const Read
   return true;
 }
 
-/// Times that are not read are refused with those that are.
+/// Refuses times given for readings that have none, with those readings.
 bool refuse_times(ObjectReader& reader, std::span<const ReadingKind> own) {
   bool any = false;
   for (const std::string& key : reader.keys()) {
@@ -185,7 +185,7 @@ bool refuse_times(ObjectReader& reader, std::span<const ReadingKind> own) {
 constexpr ReadingKind yield_stress_kind{
     .name = "yield_stress_pa", .key = "yield_stress_pa", .measure = "yield_stress_pa", .possible = {1e-2, 1e5}};
 
-/// What to do where nothing was read off a test.
+/// Advice for a laboratory file without readings.
 std::string advice_without_readings(const Test& test, std::span<const ReadingKind> kinds,
                                     const std::optional<Measurement>& yield_stress) {
   const auto by_default = std::ranges::find_if(kinds, [](const auto& kind) { return kind.advised && !kind.lack; });
@@ -282,7 +282,7 @@ ObjectSchema::Json told_measurement(ObjectSchema& schema, const std::string& nam
   return schema.defined(name, {{"oneOf", {single, several}}});
 }
 
-/// The points of an outline, or of a curve over time.
+/// Points of an outline, or of a curve over time.
 ObjectSchema::Json told_points(ObjectSchema& schema, bool over_time) {
   constexpr double most_mm = 10000;
   return schema.described([&](ObjectSchema& form) {

@@ -8,15 +8,15 @@
 
 namespace pastefit {
 
-// The JSON schemas of files for people, `data/schema`.
+// JSON schemas of user files, `data/schema`.
 
 nlohmann::ordered_json apparatus_schema();
 nlohmann::ordered_json lab_schema();
 nlohmann::ordered_json study_schema();
-/// Of the words of laws, to which the others refer.
+/// Names of the laws; the other schemas refer to it.
 nlohmann::ordered_json laws_schema();
 
-// Their parts, each told beside its reader.
+// Parts of the schemas, each defined beside its reader.
 
 void tell_provenance(ObjectSchema& document);
 /// "test" and "apparatus".
@@ -29,11 +29,11 @@ void tell_measurements(ObjectSchema& lab);
 
 void tell_tests(ObjectSchema& study);
 
-/// "free", "scale" and "prior" of a parameter. `range`: where it is admissible.
+/// "free", "scale" and "prior" of a parameter. `range`: its admissible values.
 void read_free(ObjectReader& reader, const Range& range, Parameter& parameter);
 void tell_parameter(ObjectSchema& parameters, const ParameterKind& kind);
 
-/// "search" of a study in which so many tests are fitted.
+/// "search" of a study with this number of fitted tests.
 void read_search_options(ObjectReader& document, int fitted_tests, SearchOptions& search);
 void tell_search_options(ObjectSchema& study);
 

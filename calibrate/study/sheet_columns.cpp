@@ -16,8 +16,8 @@
 namespace pastefit {
 namespace {
 
-/// What a head is in `pastefit new`, and how it may say it, as `folded` makes it. Sources of the names: EN 12350-2, -5
-/// and -6, EN 1015-3 and ASTM C143, C138 and C1437, and the German editions of the first.
+/// Meaning of a heading in `pastefit new`, and its possible texts after `folded`. Sources: EN 12350-2, -5 and -6, EN
+/// 1015-3, ASTM C143, C138 and C1437, and the German editions of the EN standards.
 struct Heading {
   std::string_view is, says;
 };
@@ -44,7 +44,7 @@ constexpr std::array<Heading, 15> headings{{
     {"height-after", "|height after|"},
 }};
 
-/// Parts a head into what it says and its unit: "Slump 1 (mm)", "slump, in", "slump_mm", "Slump in mm".
+/// Splits a heading into name and unit: "Slump 1 (mm)", "slump, in", "slump_mm", "Slump in mm".
 std::pair<std::string, std::string> parted(const std::string& head) {
   std::smatch found;
   static const std::regex in_brackets(R"(^(.*?)[(\[]([^)\]]*)[)\]](.*)$)");
@@ -66,7 +66,8 @@ std::string without_number(const std::string& says) {
   return last == std::string::npos ? says : trimmed(says.substr(0, last + 1));
 }
 
-/// What a head is in `pastefit new`: by its whole name, else without the number of a repeat. Empty if it is nothing.
+/// Meaning of a heading in `pastefit new`, by its full name, else by its name without a repeat number; empty if
+/// unknown.
 std::string meaning_of(const std::string& head, const std::string& says) {
   for (const std::string& name : {says, without_number(says)}) {
     const auto heading = std::ranges::find_if(
@@ -78,7 +79,7 @@ std::string meaning_of(const std::string& head, const std::string& says) {
   return "";
 }
 
-/// "slump2" is a reading after the drop, unless a "slump1" stands beside it.
+/// Takes "slump2" for the reading after the drop, unless there is a "slump1".
 void take_numbers_for_repeats(std::vector<SheetColumn>& columns) {
   for (SheetColumn& column : columns) {
     const std::string bare = without_number(column.says);
@@ -92,13 +93,13 @@ bool is_of_sample(const std::string& is) {
   return is == kIsSample || is == kIsTitle || is == kIsMould || is == kIsDensity || is == kIsDrops;
 }
 
-/// The number behind a name, as that of a repeat; 0 if there is none.
+/// Repeat number at the end of a name; 0 if there is none.
 int number_of(const std::string& says) {
   const std::string digits = says.substr(std::min(says.size(), says.find_last_not_of("0123456789") + 1));
   return digits.empty() || digits.size() > 4 ? 0 : std::stoi(digits);
 }
 
-/// Columns of one reading are repeats: none numbered, or all from 1, or the first alone not.
+/// Checks the columns of one reading, which are its repeats: none numbered, all numbered from 1, or all but the first.
 Faults faults_of_repeats(std::span<const SheetColumn> columns, const SheetColumn& last) {
   std::vector<int> numbers;
   for (const SheetColumn& one : columns) {

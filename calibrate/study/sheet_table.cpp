@@ -19,11 +19,11 @@ namespace {
 
 constexpr std::size_t most_samples = 1000;
 
-/// The table with the separator and the line that make the most of its head.
+/// Table with the separator and header line that give most known columns.
 struct Layout {
   std::vector<CsvLine> lines;
   std::vector<SheetColumn> columns;
-  std::size_t first = 0;  ///< line below the head
+  std::size_t first = 0;  ///< line below the header
   char separator = ',';
 };
 
@@ -48,18 +48,18 @@ std::string cell_of(const CsvLine& line, std::size_t column) {
   return column < line.cells.size() ? line.cells[column] : std::string();
 }
 
-/// Whether the word stands in a list "|one|two|".
+/// True if the word is in a list "|one|two|".
 bool is_one_of(std::string_view words, const std::string& word) {
   return words.find("|" + word + "|") != std::string_view::npos;
 }
 
-/// What people and Excel write where nothing was measured.
+/// True for what people and Excel write in place of a missing value.
 bool is_missing(const std::string& cell) {
   return is_one_of("||-|–|—|/|?|x|n/a|n.a.|na|nan|n.b.|k.a.|k. a.|#nv|#n/a|#div/0!|not measured|nicht gemessen|",
                    small_letters(cell));
 }
 
-/// Rows that a laboratory adds below its samples.
+/// True for rows of statistics below the samples.
 bool is_of_statistics(const std::string& sample) {
   return is_one_of(
       "|mean|average|mittel|mittelwert|durchschnitt|median|stabw|standardabweichung|standard deviation|std|st "
@@ -67,7 +67,7 @@ bool is_of_statistics(const std::string& sample) {
       folded(sample));
 }
 
-/// Takes a line below the head that holds units only.
+/// Reads units from the line below the header, if it contains only units.
 void take_units(Layout& layout) {
   if (layout.first >= layout.lines.size()) return;
   const CsvLine& line = layout.lines[layout.first];
@@ -88,7 +88,7 @@ void take_units(Layout& layout) {
   ++layout.first;
 }
 
-/// Numbers with decimal points, where a comma between digits is a decimal one; what may be a list or thousands stays.
+/// Replaces decimal commas by points, except in what may be a list or contain thousands separators.
 std::string with_points(const std::string& cell) {
   static const std::regex other(R"(\d,\d+,\d|\d\d,\d\d\d(?!\d)|\d\.\d+,\d)"), comma(R"((\d),(\d))");
   return std::regex_search(cell, other) ? cell : std::regex_replace(cell, comma, "$1.$2");
@@ -107,7 +107,7 @@ std::string folder_name(const std::string& sample) {
   return name;
 }
 
-/// Takes a cell for what its column is.
+/// Stores a cell as its column's value.
 void take_cell(const SheetColumn& column, const std::string& cell, const std::string& where, SheetRow& row,
                Faults& faults) {
   Sheet& sheet = row.sheet;
@@ -145,7 +145,7 @@ void take_cell(const SheetColumn& column, const std::string& cell, const std::st
   }
 }
 
-/// A line whose cells are not those of the head: one too many, or one in quotes that reached into other lines.
+/// Faults of a line with surplus cells, or with a quoted cell that spans several lines.
 Faults misplaced_cells(const Layout& layout, const CsvLine& line) {
   Faults faults;
   const std::string where = "line " + std::to_string(line.number);

@@ -13,33 +13,31 @@ namespace pastefit {
 
 /// A row of a laboratory's table.
 struct SheetRow {
-  std::string name;      ///< of the sample, fit for a folder: small letters, digits and -
+  std::string name;      ///< of the sample, usable as folder name: small letters, digits and -
   std::size_t line = 0;  ///< of the table
   Sheet sheet;
 };
 
-/// A laboratory's table of slump tests.
+/// Table of slump tests.
 struct SheetTable {
   std::vector<SheetRow> rows;
-  std::vector<std::string> mix;         ///< heads of columns that belong to the mix
-  std::vector<std::string> unused;      ///< heads of columns that name nothing of a sheet
+  std::vector<std::string> mix;         ///< headings of mix variables
+  std::vector<std::string> unused;      ///< headings of unused columns
   std::vector<std::size_t> without;     ///< lines without a reading
-  std::vector<std::size_t> statistics;  ///< lines of means and the like
+  std::vector<std::size_t> statistics;  ///< lines of statistics, e.g. means
 };
 
-/// The samples of a table of values between commas, semicolons or tabs (RFC 4180), a row each. Its head has the names
-/// of the options of `pastefit new`, or those of the standards in English or German, with their units: "slump (mm)",
-/// "Slump 2, in", "Rohdichte [kg/dm3]"; columns of one name with numbers behind it are repeats. A column in kg/m3 that
-/// names nothing else is one of the mix. Lines above the head are for people; a line below it may hold the units. Text
-/// in UTF-8, in UTF-16 with its byte order mark, or else in Windows' code page 1252; between semicolons and tabs a
-/// comma between digits is a decimal one. What the table has no column for is as in `defaults`, and so are a mould and
-/// a density that a row does not say.
-///
-/// Faults: no head, no row with a reading, a head or cell that cannot be understood, a sample twice; all by their
-/// place.
+/// Parses a table of values separated by commas, semicolons or tabs (RFC 4180), one sample per row.
+/// Headings are option names of `pastefit new`, or names from the standards in English or German, with units: "slump
+/// (mm)", "Slump 2, in", "Rohdichte [kg/dm3]". Columns of one name with trailing numbers are repeats; an otherwise
+/// unknown column in kg/m3 is a mix variable. Lines above the header are ignored; the line below it may contain units.
+/// Encoding: UTF-8, UTF-16 with byte order mark, otherwise Windows code page 1252. If semicolons or tabs separate, a
+/// comma between digits is a decimal comma. `defaults` provides what the table has no column for, and mould and density
+/// of rows without them.
+/// Faults, each with its place: no header, no row with a reading, an unreadable heading or cell, a duplicate sample.
 SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& faults);
 
-/// The same of a file, which each sheet names as its source.
+/// Reads the table from a file, which becomes the source of each sheet.
 SheetTable read_sheet_table(const std::filesystem::path& file, const Sheet& defaults, Faults& faults);
 
 }  // namespace pastefit

@@ -22,7 +22,7 @@ std::string reading_line(const CustomaryReading& one, bool last) {
          ", \"standard_deviation\": " + number_text(one.standard_deviation) + "}" + (last ? "" : ",");
 }
 
-/// What a slump test reads anyhow: half of the height is left, of a heap between a paraboloid and a cone.
+/// Assumed readings of a slump test: half of the height remains, in a shape between paraboloid and cone.
 std::vector<CustomaryReading> usual_readings(const SlumpTest& test) {
   constexpr double left = 0.5, cones = 0.85;
   const double height_m = left * test.mould.height_m;
@@ -49,7 +49,7 @@ std::string plate_line(const SlumpTest& test) {
 
 std::string grains_line(const GrainSizes& grains) {
   const bool mono = grains.distribution == SizeDistribution::mono;
-  // A quarter to either side: equal spheres lie in layers and shear off along them.
+  // +- 25 %: equal spheres form layers and shear off along them.
   const double smallest = mono ? 0.75 * grains.radius_m : grains.smallest_m;
   const double largest = mono ? 1.25 * grains.radius_m : grains.largest_m;
   return "\"grains\": {\"distribution\": \"uniform\", \"smallest_mm\": " + number_text(mm * smallest) +

@@ -49,7 +49,7 @@ std::string reading_fault_place(std::string_view name) {
   return "reading " + printable(name);
 }
 
-/// The value; nothing, and its faults added to the others, where there are some.
+/// The value, or nothing after appending the faults.
 template <class T>
 std::optional<T> taken(const Result<T>& result, Faults& faults) {
   if (result.ok()) return result.value();
@@ -57,7 +57,7 @@ std::optional<T> taken(const Result<T>& result, Faults& faults) {
   return std::nullopt;
 }
 
-/// Base, top and height of a mould [mm], "200/100/300" or "8/4/12 in". Nothing if it is none.
+/// Base, top and height of a mould [mm] from "200/100/300" or "8/4/12 in"; nothing for other texts.
 std::optional<std::vector<double>> lengths_in(std::string mould) {
   const bool three = std::ranges::count(mould, '/') == 2;
   std::ranges::replace(mould, '/', ';');
@@ -65,7 +65,7 @@ std::optional<std::vector<double>> lengths_in(std::string mould) {
   return three && read.ok() && read.value().size() == 3 ? std::optional(read.value()) : std::nullopt;
 }
 
-/// A mould of one's own on a table that its heap does not leave, lifted in 3 s but no slower than 50 mm/s.
+/// Apparatus for a custom mould: a table large enough for the heap, a lift of 3 s but at least 50 mm/s.
 ordered_json own_apparatus(const std::vector<double>& mould) {
   const double base = mould[0], top = mould[1], height = mould[2];
   const double wider = std::max(base, top);
@@ -82,7 +82,7 @@ ordered_json apparatus_json(const std::string& mould) {
   return {{"preset", trimmed(mould)}};
 }
 
-/// The same with the sheet's drops, and on a table that the heap does not leave: that of a preset is an assumption.
+/// Adds the sheet's drops, and a table large enough for the heap; the preset's table size is an assumption.
 ordered_json apparatus_json(const Sheet& sheet, const SlumpTest& test, const ordered_json& measurements) {
   constexpr double room = 1.3;
   ordered_json out = apparatus_json(sheet.mould);
@@ -100,8 +100,8 @@ const SlumpTest& slump_of(const Test& test) {
   return std::get<SlumpTest>(test);
 }
 
-/// Radii about that of the preset, a quarter of it to either side: equal spheres lie in layers and shear off along
-/// them. Of another mould, and of a preset with too few, as many grains as an Abrams cone has with 8 mm.
+/// Radii within 25 % of the preset's mean: equal spheres form layers and shear off along them. For custom moulds, and
+/// presets with too few grains, as many grains as an Abrams cone has with 8 mm.
 ordered_json grains_json(const Test& test, bool preset) {
   constexpr double many = 1600, too_few = 500;
   constexpr double largest_of_opening = 0.08;
@@ -116,7 +116,7 @@ ordered_json grains_json(const Test& test, bool preset) {
           {"largest_mm", rounded(1.25 * radius_mm, 3)}};
 }
 
-/// Those of the sheet, or those of the mould.
+/// Grains of the sheet; default: those of the mould.
 ordered_json grains_json(const Sheet& sheet, const Test& test, Faults& faults) {
   if (sheet.grains.empty()) return grains_json(test, !lengths_in(sheet.mould));
   const auto radii = taken(written_readings("grains", sheet.grains, "mm"), faults);
@@ -129,9 +129,10 @@ ordered_json grains_json(const Sheet& sheet, const Test& test, Faults& faults) {
   return {};
 }
 
-/// The deviation of one reading: as published for this mould, else the share that is published for a height. Of an
-/// angle of repose nothing is published; 1.5 degrees is what calibrations of wheat assume (data/lab/wheat-repose.json).
-/// Of a time EN 12350-8 publishes a repeatability of 0.66 s, which is 2.8 deviations; a tenth of one that is longer.
+/// Standard deviation of a single reading: the published one for this mould, otherwise the published fraction of a
+/// height. Angle of repose: nothing is published; 1.5 degrees is the value of wheat calibrations
+/// (data/lab/wheat-repose.json). Times: EN 12350-8 gives a repeatability of 0.66 s, which is 2.8 deviations; a tenth of
+/// longer times.
 double deviation_of(const ReadingKind& kind, const Test& test, double value) {
   constexpr double share_of_mass = 0.01, share_of_height = 0.025, of_angle_deg = 1.5;
   constexpr double of_time_s = 0.66 / 2.8, share_of_time = 0.1;
@@ -152,13 +153,13 @@ ordered_json reading_json(const std::vector<double>& values, double deviation) {
   return out;
 }
 
-/// Adds a sentence to what the file says of its numbers.
+/// Appends a sentence to the notes of the file's provenance.
 void add_note(ordered_json& lab, const std::string& note) {
   std::string notes = lab["provenance"].value("notes", "");
   lab["provenance"]["notes"] = notes + (notes.empty() ? "" : "; ") + note;
 }
 
-/// A flow after the drops of a table [mm], which may be given in per cent of the mould's base.
+/// Flow after the drops of a table [mm]; the text may be in per cent of the mould's base.
 Result<std::vector<double>> flow_mm(const std::string& where, const std::string& typed, const SlumpTest& test) {
   const std::string text = with_percent_sign(typed);
   const auto of_percent = [&](double percent) { return rounded(width_of_flow_mm(test, percent), 6); };
@@ -187,7 +188,7 @@ Result<std::vector<double>> values_of_reading(const std::string& name, const std
   return written_readings(reading_fault_place(name), text, unit ? unit->key : "");
 }
 
-/// What the sheet says of a reading's deviation.
+/// Standard deviation of a reading that the sheet gives, if any.
 std::optional<double> deviation_in(const Sheet& sheet, std::string_view key, Faults& faults) {
   for (const auto& [name, text] : sheet.deviations) {
     if (key_of_reading(name) != key) continue;
@@ -199,7 +200,7 @@ std::optional<double> deviation_in(const Sheet& sheet, std::string_view key, Fau
   return std::nullopt;
 }
 
-/// The reading that a name which is none may mean: one whose key ends with it, or one that is spelled nearly so.
+/// Suggestion for an unknown reading name: a reading whose key ends with it, or with a similar spelling.
 std::optional<std::string> meant_reading(std::string_view name, std::span<const ReadingKind> of_test) {
   const std::string end = "." + small_letters(name);
   for (const ReadingKind& kind : of_test)
@@ -210,7 +211,7 @@ std::optional<std::string> meant_reading(std::string_view name, std::span<const 
   return nearest(name, names);
 }
 
-/// "measurements": what the sheet says.
+/// "measurements" from the sheet.
 ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& faults) {
   auto out = ordered_json::object();
   const auto of_test = reading_kinds(test);
@@ -238,7 +239,7 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
   return out;
 }
 
-/// What a vane read, as the sheet says; nothing if it does not.
+/// Yield stresses of a rheometer from the sheet; may be empty.
 std::vector<double> yield_stresses_in(const Sheet& sheet, Faults& faults) {
   if (sheet.yield_stress.empty()) return {};
   const auto read = taken(written_readings("yield stress", sheet.yield_stress, "pa"), faults);
@@ -248,7 +249,7 @@ std::vector<double> yield_stresses_in(const Sheet& sheet, Faults& faults) {
   return {};
 }
 
-/// "material" with a yield stress to be compared; the deviation of a single one is assumed.
+/// Adds a yield stress, for comparison only, to "material"; the deviation of a single value is assumed.
 void add_yield_stress(ordered_json& lab, const std::vector<double>& stresses_pa) {
   constexpr double share = 0.1;
   ordered_json& written = lab["material"]["yield_stress_pa"];
@@ -260,7 +261,7 @@ void add_yield_stress(ordered_json& lab, const std::vector<double>& stresses_pa)
   add_note(lab, "the standard deviation of the yield stress is assumed, a tenth");
 }
 
-/// "measurements" of a sheet that has a yield stress only: the last reading that it predicts, whose formula holds best.
+/// "measurements" of a sheet with a yield stress only: the last predicted reading, whose formula is the most accurate.
 /// Fault: there is none.
 void predict_reading(ordered_json& lab, Test test, const std::vector<double>& stresses_pa, Faults& faults) {
   specimen_of(test).bulk_density_kg_m3 = lab["material"]["bulk_density_kg_m3"];
@@ -281,7 +282,7 @@ void predict_reading(ordered_json& lab, Test test, const std::vector<double>& st
                     " Pa, with the formula's own error");
 }
 
-/// What of the sheet cannot be as it is typed.
+/// Faults of implausible numbers in the sheet.
 Faults doubtful_numbers(const Sheet& sheet, const std::vector<double>& densities) {
   Faults faults;
   if (densities.size() > 1)
@@ -299,7 +300,7 @@ Faults doubtful_numbers(const Sheet& sheet, const std::vector<double>& densities
   return faults;
 }
 
-/// What the program has assumed of the apparatus, for the file that says it as if it were measured.
+/// Adds a note on assumed apparatus values, which the file does not distinguish from measured ones.
 void note_assumptions(ordered_json& lab, const Sheet& sheet) {
   if (lengths_in(sheet.mould)) {
     lab["assumed"] = {"apparatus.lift_velocity_mm_s"};
@@ -309,7 +310,7 @@ void note_assumptions(ordered_json& lab, const Sheet& sheet) {
   }
 }
 
-/// The faults of a file that is not written yet, by their places in it.
+/// Strips the name of a file that does not exist yet from the places of the faults.
 Faults of_no_file(Faults faults, const std::filesystem::path& file) {
   const std::string before = printable(file.string()) + ": ";
   for (Fault& fault : faults)

@@ -14,62 +14,61 @@
 
 namespace pastefit {
 
-/// What the sheet of a slump test says, as its user types it.
+/// Description of a slump test as typed by the user.
 struct Sheet {
   using Named = std::vector<std::pair<std::string, std::string>>;  ///< "slump" and "180, 175, 190 mm"
 
   std::string title = "my paste";
-  std::string source;   ///< who measured it where, or where that stands; empty: to be filled in
-  std::string mould;    ///< a preset, or "BASE/TOP/HEIGHT" with a unit if it is not mm
+  std::string source;   ///< who measured it, or where it is published; empty: to be filled in
+  std::string mould;    ///< a preset, or "BASE/TOP/HEIGHT" in mm or with a unit
   std::string density;  ///< of the fresh material: "2350", "145 lb/ft3"
-  int drops = 0;        ///< of the preset's plate or table; 0: as the preset says
+  int drops = 0;        ///< of the preset's plate or table; 0: as in the preset
   Named readings;       ///< by short name or key
-  Named deviations;     ///< of readings, in their unit; without one as published for the mould
-  std::string grains;   ///< their radius: "8", or the smallest and the largest, "6, 10 mm"; empty: by the mould
+  Named deviations;     ///< of readings, in their unit; default: as published for the mould
+  std::string grains;   ///< radius "8", or smallest and largest "6, 10 mm"; empty: chosen by the mould
   std::vector<std::pair<std::string, double>> mix;  ///< "water_kg_m3" and 180
-  std::string yield_stress;            ///< of a vane or another rheometer: "520, 490 Pa"; empty: not measured
-  std::string target = "lammps";       ///< the program that the material is for
-  std::string law;                     ///< word of the starting laws; empty: those that the program starts from
+  std::string yield_stress;            ///< from a vane or another rheometer: "520, 490 Pa"; empty: not measured
+  std::string target = "lammps";       ///< program that the material is for
+  std::string law;                     ///< word of the starting laws; empty: default of the target
   Named fixed, priors;                 ///< of parameters: "friction" and "0.2", or "0.2 +- 0.05"
-  std::vector<std::string> confirmed;  ///< places that look like a slip and are right
+  std::vector<std::string> confirmed;  ///< places of suspicious values that are correct
 };
 
-/// A laboratory file and a study for it, as text.
+/// Text of a laboratory file and of its study.
 struct StartingFiles {
   std::string lab, study;
 };
 
-/// A short name of a reading for people, and its key.
+/// Short name of a reading, and its key.
 struct ShortReading {
   std::string_view name, key, meaning;
 };
 std::span<const ShortReading> short_readings();
 
-/// The apparatus that the sheet names, with its default grains. `folder` is where the laboratory file will lie.
+/// Apparatus named in the sheet, with its default grains. `folder`: where the laboratory file will be written.
 Result<Test> apparatus_of(const std::string& mould, const std::filesystem::path& folder);
 
-/// Both files. A yield stress is written to be compared; where it is all that was measured, so is the reading that it
-/// predicts (`readings_of_fluid`), to be fitted, and the provenance says that it was not measured. Grains and
-/// deviations come from the mould, the free parameters from what the readings tell of, the laws from the target.
-/// Errors: every fault of the sheet, or of the laboratory file that it makes.
+/// Generates both files. A yield stress is written for comparison. If it is the only measurement, the reading that it
+/// predicts (`readings_of_fluid`) is written as well, to be fitted, and the provenance states that it was not measured.
+/// The mould determines grains and deviations, the readings the free parameters, the target the laws. Errors: every
+/// fault of the sheet, or of the generated laboratory file.
 Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::path& folder);
 
-/// A study for the laboratory file of a sheet, and why its laws are these.
+/// Study for the laboratory file of a sheet, and the reason for its laws.
 struct StartingStudy {
   nlohmann::ordered_json document;
   std::string why;
 };
 
-/// The laws by what the sheet names or measured, the free parameters by what its readings tell of. `named`: the laws of
-/// the sheet's target. Faults: what the sheet knows of parameters is no number. Requirement: `lab` is a laboratory file
-/// without faults, `measured` its measurements.
+/// Chooses laws by the sheet and its measurements, and free parameters by its readings. `named`: laws of the sheet's
+/// target. Requirement: `lab` is a laboratory file without faults, `measured` its measurements. Faults: parameter
+/// values of the sheet that are not numbers.
 StartingStudy starting_study(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
                              const nlohmann::ordered_json& lab, std::span<const Measurement> measured, Faults& faults);
 
-/// The commented laboratory file of a slump test on this preset's apparatus, fit to be read as it is: its mould, speed,
-/// table and grains, and the readings that are customary with it, each with its usual value and deviation. Of a preset
-/// that names none, a height and a spread.
-/// Errors: there is no such preset, it is faulty, or it is an apparatus for another test.
+/// Commented laboratory file of a slump test with this preset, valid as it is: mould, speed, table, grains and the
+/// customary readings, each with default value and deviation; a height and a spread if the preset has none. Errors: no
+/// such preset, a faulty one, or one for another test.
 Result<std::string> slump_lab_template(const std::string& preset, const std::filesystem::path& folder);
 
 }  // namespace pastefit

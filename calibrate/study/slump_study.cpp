@@ -11,12 +11,12 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// An angle of repose is measured of dry materials.
+/// Angles of repose are only measured on dry materials.
 bool is_dry(const ordered_json& measurements) {
   return measurements.contains("step1.angle_of_repose_deg");
 }
 
-/// As in the template of the lifted cylinder.
+/// Same as in the template of the lifted cylinder.
 ordered_json dry_parameters() {
   return {{"friction", {{"free", {0.2, 0.8}}}},
           {"rolling_friction", {{"free", {0.02, 0.5}}}},
@@ -25,7 +25,7 @@ ordered_json dry_parameters() {
           {"mould_friction", {{"value", 0.4}}}};
 }
 
-/// Laws of grains that nothing attracts, with the rolling model of the target.
+/// Laws of non-adhesive grains, with the rolling model of the target.
 ordered_json dry_contact(const TargetLaws& laws) {
   return {{"normal", "hertz"},
           {"attraction", "none"},
@@ -33,18 +33,18 @@ ordered_json dry_contact(const TargetLaws& laws) {
           {"friction_basis", "elastic"}};
 }
 
-/// A law, and the reason for it that the study gives.
+/// Laws, and the reason given in the study.
 struct ChosenLaws {
   TargetLaws laws;
   std::string why;
 };
 
-/// How wide a heap is beside a cone of its volume and height; ordinary ones have 0.7 to 0.95 of that width, or are low.
+/// Width relative to the cone of the same volume and height. Ordinary heaps have 0.7 to 0.95 of it, or are low.
 enum class HeapWidth { ordinary, narrow, wide };
 
-/// Narrow heaps are narrower than any that slides on its table: heaps of 0.43 to 0.5 of the Abrams cone's height with
-/// 0.67 of a cone's width are met by grains that stick to the table, and by none that only rub. Wide ones are met by
-/// much friction between the grains (tests/results/laws.md).
+/// Narrow heaps are narrower than any heap that slides on its table: with 0.43 to 0.5 of the Abrams cone's height and
+/// 0.67 of a cone's width, only grains that adhere to the table reproduce them, not friction alone. High friction
+/// between the grains reproduces wide ones (tests/results/laws.md).
 HeapWidth width_of(const SlumpTest& test, std::span<const Measurement> measured) {
   constexpr double narrow = 0.7, low = 0.25, wide = 0.95;
   const auto* height = find_measurement(measured, "step1.height_mm");
@@ -54,10 +54,10 @@ HeapWidth width_of(const SlumpTest& test, std::span<const Measurement> measured)
   return share < narrow ? HeapWidth::narrow : share > wide ? HeapWidth::wide : HeapWidth::ordinary;
 }
 
-/// The laws that the sheet names, or those that its target starts from. Where the sheet names none and the target runs
-/// both, heaps that keep more than half of their height get elasto-plastic adhesion: those of a bridge shear off.
-/// Others get the bridge, whose strength does not depend on the size of the mould (tests/results/laws.md); so do timed
-/// flows, because only a bridge has a viscosity, and sheets of a yield stress alone.
+/// Laws named in the sheet, otherwise the default of the target. If the sheet names none and the target supports both,
+/// heaps that keep more than half of their height get elasto-plastic adhesion, because bridge heaps shear off. Others
+/// get the bridge, whose strength does not depend on the size of the mould (tests/results/laws.md); so do timed flows,
+/// because only a bridge has a viscosity, and sheets with a yield stress only.
 ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
                    std::span<const Measurement> measured) {
   constexpr double stands = 0.5;
@@ -77,9 +77,8 @@ ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest&
   return {*bridge, std::string(bridge->why)};
 }
 
-/// A height and a spread, or the spreads before and after the drops of a table, tell strength and friction apart; one
-/// of them alone tells the strength.
-/// A time of the flow tells the viscosity, of laws that have one.
+/// Height and spread, or the spreads before and after the drops of a table, identify strength and friction; one of them
+/// only the strength. A flow time identifies the viscosity of laws that have one.
 ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements, double radius_mm,
                             HeapWidth width) {
   if (is_dry(measurements)) return dry_parameters();
@@ -97,13 +96,14 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
   bool timed = false;
   for (const auto& [key, reading] : measurements.items()) timed = timed || key.ends_with("_s");
   if (timed && laws.law == "bridge" && laws.target == "lammps") {
-    const double most_pa_s = rounded(0.4 * radius_mm, 2);  // larger ones need shorter steps, by the radius
+    const double most_pa_s =
+        rounded(0.4 * radius_mm, 2);  // larger viscosities need shorter steps, depending on the radius
     out["viscosity_pa_s"] = {{"free", {rounded(most_pa_s / 100, 2), most_pa_s}}, {"scale", "log"}};
   }
   return out;
 }
 
-/// What the sheet knows of parameters: values that are not searched, and priors of those that are.
+/// Adds fixed values and priors of parameters from the sheet.
 void add_knowledge(ordered_json& study, const Sheet& sheet, Faults& faults) {
   ordered_json& parameters = study["parameters"];
   for (const auto& [name, text] : sheet.fixed) {

@@ -51,7 +51,7 @@ void describe_choice(Fields& fields, ContactModel& laws) {
       laws.friction_basis, friction_bases, optional);
 }
 
-/// The choice of laws.
+/// Reads the choice of laws.
 ContactModel read_contact(ObjectReader& document) {
   ContactModel laws;
   laws.bridge.shape = BridgeShape::polynomial;
@@ -81,7 +81,7 @@ std::vector<Parameter> read_parameters(ObjectReader& document, const ContactMode
       if (reader.has(kind.name) && !has_parameter(laws, kind.name))
         reader.faults().push_back(foreign_parameter(laws, reader.place(kind.name), kind.name));
       else if (reader.has(kind.name) && std::ranges::none_of(tests, [&](const StudyTest& test) {
-                 return test.lab.measurements.empty() || acts_in(test.lab.test, kind.name);  // or it was not read
+                 return test.lab.measurements.empty() || acts_in(test.lab.test, kind.name);  // or it could not be read
                }))
         reader.faults().push_back(surface_of_no_test(reader.place(kind.name), kind.name));
       any_free = any_free || parameter.free;
@@ -94,7 +94,7 @@ std::vector<Parameter> read_parameters(ObjectReader& document, const ContactMode
   return parameters;
 }
 
-/// A material may shear off as often as the laboratory's did.
+/// The accepted share of sheared-off heaps is at least the measured one.
 double rejected_share_of_labs(const std::vector<StudyTest>& tests, double least) {
   for (const StudyTest& test : tests)
     if (!test.hold_out) least = std::max(least, test.lab.repeats.sheared_share());
@@ -110,8 +110,8 @@ void choose(const ContactModel& laws, Test& test) {
   contact.friction_basis = laws.friction_basis;
 }
 
-/// The point of the bounds' cube where everything free is at its upper bound, but the stiffness at its lower one: the
-/// grains that are pressed into each other most.
+/// Point of the unit cube with the largest overlaps: every free parameter at its upper bound, the stiffness at its
+/// lower.
 std::vector<double> most_squeezed(const Study& study) {
   std::vector<double> point;
   for (const Parameter& parameter : study.parameters)
@@ -119,8 +119,8 @@ std::vector<double> most_squeezed(const Study& study) {
   return point;
 }
 
-/// The point where everything free is at its lower bound, but the viscosity at its upper one: the softest grains in the
-/// thickest liquid.
+/// Point of the unit cube with the softest grains in the most viscous liquid: every free parameter at its lower bound,
+/// the viscosity at its upper.
 std::vector<double> thickest(const Study& study) {
   std::vector<double> point;
   for (const Parameter& parameter : study.parameters)
@@ -128,7 +128,7 @@ std::vector<double> thickest(const Study& study) {
   return point;
 }
 
-/// The study's test at the centre and at corners of its bounds: every point must be fit to run.
+/// Validates the tests at the centre and at corners of the bounds: every point must be runnable.
 Faults validate_points(const Study& study) {
   const auto free = static_cast<std::size_t>(free_count(study));
   using Point = std::vector<double>;

@@ -13,7 +13,7 @@
 
 namespace pastefit {
 
-/// Where data come from, carried through to the card.
+/// Source of the data, copied to the card.
 struct Provenance {
   std::string source;  ///< publication, data set or laboratory
   std::string licence;
@@ -21,15 +21,15 @@ struct Provenance {
   bool twin = false;  ///< produced by a simulation with known parameters
 };
 
-/// An amount or a property of the mix that a laboratory file names, e.g. water_kg_m3.
+/// Amount or property of the mix in a laboratory file, e.g. water_kg_m3.
 struct MixVariable {
   std::string name;  ///< with its unit
   double value = 0;
 };
 
-/// A laboratory file: the test as an apparatus with default contact parameters, and what was measured.
+/// Laboratory file: the test, as an apparatus with default contact parameters, and its measurements.
 struct Lab {
-  /// How often the test was made, and in how many of them the heap sheared off, which then has no readings.
+  /// Number of tests made, and of those whose heap sheared off; those have no readings.
   struct Repeats {
     int made = 0, sheared = 0;
     double sheared_share() const { return made > 0 ? static_cast<double>(sheared) / made : 0; }
@@ -39,102 +39,102 @@ struct Lab {
   Provenance provenance;
   Test test;
   std::vector<Measurement> measurements;
-  std::optional<Measurement> yield_stress;  ///< by a vane or another rheometer [Pa]; compared, never fitted
-  Repeats repeats;                          ///< none made: it is not said
-  std::vector<MixVariable> mix;             ///< what the material was mixed of, in alphabetical order; not simulated
-  std::vector<std::string> stated;          ///< of what is often unstated (`FilePlace`): the places that the file gives
-  std::string content;                      ///< what the file and the preset that it names say, as JSON text
-  std::string hash;                         ///< of the file's content, with the preset it names (64-bit, hexadecimal)
-  std::string note;                         ///< on the preset (`note_on_preset`); empty if there is nothing to say
-  std::vector<std::string> notes;  ///< on its numbers, before anything runs: a sentence each, without a full stop
+  std::optional<Measurement> yield_stress;  ///< from a vane or another rheometer [Pa]; compared, never fitted
+  Repeats repeats;                          ///< none made: not stated
+  std::vector<MixVariable> mix;             ///< composition of the material, in alphabetical order; not simulated
+  std::vector<std::string> stated;          ///< often unstated places (`FilePlace`) that the file gives
+  std::string content;                      ///< of the file and its preset, as JSON text
+  std::string hash;                         ///< of the file with its preset (64-bit, hexadecimal)
+  std::string note;                         ///< on the preset (`note_on_preset`); may be empty
+  std::vector<std::string> notes;  ///< on its numbers, before any simulation: one sentence each, without a full stop
 };
 
 /// "1 of 4 heaps of the laboratory sheared off".
 std::string sheared_in_words(const Lab::Repeats& repeats);
 
-/// How a free parameter is spaced between its bounds.
+/// Spacing of a free parameter between its bounds.
 enum class Scale { linear, logarithmic };
 
-/// What is known of a parameter before the test: a normal distribution of its value, or of its logarithm on a
-/// logarithmic scale, there with standard_deviation/value as its standard deviation; cut off at the bounds.
+/// Information on a parameter before the test: a normal distribution of its value. On a logarithmic scale, of its
+/// logarithm, with standard deviation standard_deviation/value. Truncated at the bounds.
 struct Prior {
   double value = 0, standard_deviation = 0;  ///< in the parameter's unit
 };
 
-/// One coordinate of the search, or a fixed value. Names and meaning: `calibrate/study/parameters.h`.
+/// Coordinate of the search, or fixed value. Names and meanings: `calibrate/study/parameters.h`.
 struct Parameter {
   std::string name;
   bool free = false;
-  double value = 0;  ///< used when not free
+  double value = 0;  ///< if not free
   double lower = 0, upper = 0;
   Scale scale = Scale::linear;
-  std::optional<Prior> prior = std::nullopt;  ///< of a free parameter; without one every value is as good as any other
-  bool stated = false;                        ///< the study names it; else its value is the default
+  std::optional<Prior> prior = std::nullopt;  ///< of a free parameter; none: uniform between the bounds
+  bool stated = false;                        ///< given in the study; otherwise `value` is the default
 };
 
-/// What a study asks of one measurement.
+/// Weight and tolerance of one measurement.
 struct Target {
   std::string reading;
   double weight = 1;                               ///< in the fit; 0: reported, not fitted
   std::optional<double> tolerance = std::nullopt;  ///< in the reading's unit; none: see `calibrate/study/tolerance.h`
 };
 
-/// How to search.
+/// Options of the search.
 struct SearchOptions {
   std::string strategy = "default";  ///< name of a search strategy or of an NLopt algorithm
   int screening = 8;                 ///< space-filling points
-  int budget_simulations = 60;       ///< simulations in all, confirmation included
-  int packings = 2;     ///< random packings that an optimiser's candidates share, and those with coarse grains
-  int max_pending = 0;  ///< candidates that may be under way when the next one is proposed; above 0 a
-                        ///< confirmation asks for all its packings at once
-  int confirmation_packings = 4;  ///< fresh packings for the candidate that is reported
-  double rejected_share = 0.2;    ///< of heaps that a laboratory would reject, at most; 1: not judged. Not stated: as
-                                  ///< many as the laboratory's own, if that is more
-  int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
-  std::optional<double> tolerance_mm = std::nullopt;  ///< of each fitted length that has none of its own
-  bool coarse_first = false;  ///< look with coarse grains before fine ones (`calibrate/study/tests.h`)
-  bool end_early = true;      ///< candidates need not run to their end (`calibrate/evaluate/early_end.h`)
+  int budget_simulations = 60;       ///< in total, confirmation included
+  int packings = 2;     ///< random packings shared by an optimiser's candidates, and those with coarse grains
+  int max_pending = 0;  ///< candidates that may be running when the next one is proposed; if above 0, a confirmation
+                        ///< requests all its packings at once
+  int confirmation_packings = 4;  ///< new packings for the reported candidate
+  double rejected_share =
+      0.2;  ///< largest share of rejected heaps; 1: not judged; default: at least the measured share
+  int examination_simulations =
+      12;  ///< for the examination after the search, in the same budget: which other candidates fit as well
+  std::optional<double> tolerance_mm = std::nullopt;  ///< of fitted lengths without a tolerance of their own
+  bool coarse_first = false;                          ///< search with coarse grains first (`calibrate/study/tests.h`)
+  bool end_early = true;  ///< candidates may be stopped early (`calibrate/evaluate/early_end.h`)
   std::uint64_t seed = 1;
 };
 
-/// One test of the material: a laboratory file, and what of it counts.
+/// Test of the material: a laboratory file with weights and tolerances.
 struct StudyTest {
-  std::string name;      ///< unique; empty if the study has one test only
-  std::string lab_file;  ///< as the study names it
+  std::string name;      ///< unique; empty if the study has only one test
+  std::string lab_file;  ///< name in the study
   Lab lab;
   std::vector<Target> targets;                 ///< one per measurement, in the order of `lab.measurements`
-  std::vector<std::string> not_measured = {};  ///< readings that it weighs or allows, but the laboratory did not take
+  std::vector<std::string> not_measured = {};  ///< readings with a weight or tolerance, but without a measurement
   bool hold_out = false;                       ///< predicted and judged, never fitted
 };
 
-/// A study file: the laboratory's tests of one material, its parameters free and fixed, and the search.
-/// The parameters are scale-free, so that tests may differ in mould, lift, steps and grains.
+/// Study file: tests of one material, free and fixed parameters, and search options. The parameters are scale-free, so
+/// tests may differ in mould, lift, steps and grains.
 struct Study {
   std::string title;
-  std::vector<StudyTest> tests;       ///< at least one that is fitted, and that one first
+  std::vector<StudyTest> tests;       ///< at least one fitted test; fitted tests first
   std::vector<Parameter> parameters;  ///< every known parameter, in the order of `parameters.h`
   SearchOptions search;
-  std::string content;  ///< what the study file says, as JSON text
-  std::string hash;     ///< of the study file's content
+  std::string content;  ///< of the study file, as JSON text
+  std::string hash;     ///< of `content`
 };
 
-/// Changes of what a study and its laboratory files say, made before they are read; each may be left empty.
+/// Changes of the contents of a study and its laboratory files before they are read; each may be empty.
 struct StudyChanges {
   std::function<void(nlohmann::json& study)> of_study;
-  std::function<void(nlohmann::json& lab, const std::string& test)> of_lab;  ///< of the test with this name
+  std::function<void(nlohmann::json& lab, const std::string& test)> of_lab;  ///< `test`: name in the study
 };
 
-/// Reads a study and the laboratory files it names (paths relative to the study).
-/// Errors: every fault of all files at once, each with its place and what would be right.
+/// Reads a study and its laboratory files (paths relative to the study). Errors: every fault of all files, with place
+/// and remedy.
 Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& changes = {});
 
-/// The study that a document stands for, as `read_study` reads it from a file. `file`: the name that places begin with,
-/// empty for none; laboratory files are looked for in its folder. In place of the name of a laboratory file the
-/// document may hold what such a file says.
+/// Parses a study like `read_study`. `file`: prefix of the places, may be empty; laboratory files are looked for in its
+/// folder. The document may contain a laboratory file's content in place of its name.
 Result<Study> study_from_json(nlohmann::json document, const std::filesystem::path& file,
                               const StudyChanges& changes = {});
 
-/// Reads a laboratory file, with the apparatus preset it names; its content is changed before, if there is a `change`.
+/// Reads a laboratory file with its apparatus preset, after applying `change` to its content, if given.
 Result<Lab> read_lab(const std::filesystem::path& file, const std::function<void(nlohmann::json&)>& change = {});
 
 }  // namespace pastefit

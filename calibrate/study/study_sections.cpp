@@ -69,15 +69,15 @@ void tell_search_options(ObjectSchema& study) {
 
 namespace {
 
-/// How wide the way between two bounds is at least, as a share of the larger one, and how far apart they are at most on
-/// a logarithmic scale. Beyond either a coordinate between them has no digits that count.
+/// Smallest distance between two bounds, as a fraction of the larger one, and largest ratio of bounds on a logarithmic
+/// scale. Beyond either limit, a coordinate between them has no significant digits.
 constexpr double narrowest = 1e-6, farthest_apart = 1e12;
 
-/// The standard deviation of a prior, as a share of the way between the bounds: narrower is a fixed value, wider says
-/// nothing.
+/// Standard deviation of a prior, as a fraction of the distance between the bounds. A narrower prior is a fixed value;
+/// a wider one carries no information.
 constexpr Range prior_deviations{1e-6, 1e6};
 
-/// Whether a coordinate can be told between the bounds; a fault if not.
+/// Checks that the distance between the bounds is numerically usable; adds a fault if not.
 bool check_bounds(ObjectReader& reader, const std::vector<double>& bounds, Scale scale) {
   const std::string both = "the bounds " + shown(bounds[0]) + " and " + shown(bounds[1]) + " are ";
   const auto refused = [&](const std::string& what, std::string remedy) {
@@ -98,7 +98,7 @@ bool check_bounds(ObjectReader& reader, const std::vector<double>& bounds, Scale
   return true;
 }
 
-/// Requirement: the bounds of the parameter are good.
+/// Requirement: the bounds of the parameter are valid.
 void read_prior(ObjectReader& known, Parameter& parameter, const Range& range) {
   Prior prior{0, 1};
   Range admissible{0, largest_quantity, true};

@@ -11,9 +11,9 @@
 namespace pastefit {
 namespace {
 
-// Bounds of what makes grains stick reach from heaps that flow away to heaps that stand: of a bridge, pull-offs of
-// about 10 to 40,000 R^2 Pa; of the other laws what their softest grains bear (4.7 R^2 of JKR's surface energy over R;
-// of SJKR the cube of its energy density).
+// Bounds of the adhesion range from collapsing heaps to heaps that keep their shape. Bridge: pull-offs of about 10 to
+// 40,000 R^2 Pa; other laws: what the softest admissible grains support (JKR: 4.7 R^2 times surface energy over R;
+// SJKR: the cube of the energy density).
 constexpr std::string_view slippery = R"({"free": [0.05, 0.3], "scale": "log"})", slips = R"({"value": 0.15})",
                            rolls = R"({"free": [0, 0.5]})", rolls_well = R"({"value": 0.02})";
 constexpr StartingParameter sliding{"friction", slippery, slips, "between grains; heaps with more shear off"};
@@ -32,7 +32,7 @@ constexpr std::array<StartingParameter, 5> of_epa{{
 constexpr std::array<StartingParameter, 7> of_bridge{{
     {"strength_pa", R"({"free": [10, 40000], "scale": "log"})", R"({"free": [10, 40000], "scale": "log"})",
      "attraction at touch over R^2"},
-    // A tough bridge, of which heaps stand (tests/results/standing_heaps.md).
+    // A tough bridge, with which heaps keep their shape (tests/results/standing_heaps.md).
     {"rupture_force_ratio", R"({"value": 0.5})", "", "share of it left when the bridge ruptures"},
     {"curvature", R"({"value": -0.5})", "", "decay: -1 flat at touch, 0 straight, 1 flat at rupture"},
     {"rupture_gap_ratio", R"({"free": [0.4, 1], "scale": "log"})", R"({"free": [0.15, 1], "scale": "log"})",
@@ -94,7 +94,7 @@ std::string listed(const List& list, std::string_view List::value_type::*name) {
   return out;
 }
 
-/// The lines of a study's "parameters", each with its meaning.
+/// Lines of "parameters" in a study, each with its meaning.
 std::vector<std::string> parameter_lines(const StartingLaws& laws) {
   std::vector<const StartingParameter*> written;
   for (const StartingParameter& one : laws.parameters)
@@ -117,7 +117,7 @@ std::span<const TargetLaws> target_laws() {
 }
 
 std::optional<TargetLaws> laws_for(std::string_view given, std::string_view law) {
-  const std::string target = small_letters(given);  // programs write their names in capitals, too
+  const std::string target = small_letters(given);  // programs also write their names in capitals
   const auto found = std::ranges::find_if(known_targets, [&](const TargetLaws& laws) {
     return (laws.target == target || laws.export_target == target) && (law.empty() || laws.law == law);
   });

@@ -18,9 +18,9 @@ using nlohmann::json;
 constexpr std::size_t most_tests = 20;
 constexpr Range weights{0, 1e6}, tolerances{1e-6, 1e6};
 
-/// Reads an object that has a number for some readings; `set` takes it to the reading's target. Of a reading that the
-/// apparatus has, but that was not taken, it is left out. A laboratory file that could not be read has no measurements:
-/// any known reading may then have one.
+/// Reads an object with numbers for some readings; `set` stores each in the reading's target. Readings that the
+/// apparatus has, but that were not measured, go to `not_measured`. If the laboratory file could not be read, all known
+/// readings are allowed.
 template <class Set>
 void read_numbers(ObjectReader& reader, StudyTest& test, const Range& range, Set set) {
   const Lab& lab = test.lab;
@@ -58,7 +58,7 @@ void read_targets(ObjectReader& document, StudyTest& test) {
   });
 }
 
-/// The name of a laboratory file, or what such a file says.
+/// Reads the name, or the content, of a laboratory file.
 void read_lab_of(ObjectReader& reader, const json& content, const LabReading& labs, StudyTest& test) {
   const auto given = content.find("lab");
   const bool in_place = given != content.end() && given->is_object();
@@ -81,7 +81,7 @@ void read_lab_of(ObjectReader& reader, const json& content, const LabReading& la
     labs.faults.insert(labs.faults.end(), lab.faults().begin(), lab.faults().end());
 }
 
-/// A name goes before a slash in the names of readings, and into one line of a table.
+/// Names are used before a slash in reading names, and in one line of a table.
 bool is_name(const std::string& name) {
   return !name.empty() && name.size() <= 40 && std::ranges::all_of(name, [](unsigned char letter) {
     return std::isalnum(letter) || letter == '-' || letter == '_' || letter == '.';
@@ -214,7 +214,7 @@ std::string inputs_of(const Study& study) {
   }
   for (const StudyTest& test : study.tests) {
     json content = json::parse(test.lab.content.empty() ? "{}" : test.lab.content);
-    if (content.contains("laboratory")) {  // without what no search knows of
+    if (content.contains("laboratory")) {  // what does not affect the search
       content["laboratory"].erase("mix");
       content["laboratory"]["material"].erase("yield_stress_pa");
     }

@@ -11,43 +11,40 @@
 
 namespace pastefit {
 
-/// A measurement that a search answers for: one residual.
+/// Fitted or reported measurement: one residual.
 struct StudyReading {
   std::size_t test = 0;  ///< of `Study::tests`
   std::string name;      ///< unique in the study
   Measurement measurement;
   double weight = 1;     ///< 0: reported, not fitted
-  double tolerance = 1;  ///< in the unit of the measurement (`calibrate/study/tolerance.h`)
+  double tolerance = 1;  ///< in the reading's unit (`calibrate/study/tolerance.h`)
 };
 
-/// The name of a test's reading beside those of other tests: "slow/step1.height_mm"; without the test's name if it has
-/// none.
+/// Name of a reading in a study with several tests, "slow/step1.height_mm"; without prefix if the test has no name.
 std::string reading_name(const StudyTest& test, std::string_view reading);
 
-/// Every measurement of the tests that are fitted, in their order.
+/// Measurements of the fitted tests, in order.
 std::vector<StudyReading> readings_of(const Study& study);
 
-/// The tests that are fitted, or those held out, as indices.
+/// Indices of the fitted, or of the held-out tests.
 std::vector<std::size_t> tests_of(const Study& study, bool hold_out);
 
-/// The fault of a name that no test has.
+/// Fault of an unknown test name.
 Fault no_such_test(const std::string& name, const std::vector<std::string>& names);
 
-/// How the laboratory files of a study are read.
+/// How to read the laboratory files of a study.
 struct LabReading {
   std::filesystem::path folder;  ///< of the study
   std::function<void(nlohmann::json& lab, const std::string& test)> change;
-  Faults& faults;  ///< of these files, their places beginning with the file
+  Faults& faults;  ///< of these files; their places begin with the file name
 };
 
 /// Reads "lab", "weights" and "tolerances" of a study of one test, or "tests", a list of {"name", "lab", "weights",
-/// "tolerances", "hold_out"}.
-/// The tests that are held out are moved behind the others: the first one, whose grains a card states its material for,
-/// is fitted.
+/// "tolerances", "hold_out"}. Held-out tests are moved to the end: the first test, whose grains the card's material
+/// refers to, is fitted.
 std::vector<StudyTest> read_tests(ObjectReader& document, const nlohmann::json& study, const LabReading& labs);
 
-/// The place among these tests, of a study or of a card, of the one with this name.
-/// Error: none has it; the fault says which there are.
+/// Index of the test with this name, in a study or card. Error: no such test; the fault lists the names.
 template <class Tests>
 Result<std::size_t> place_of_test(const Tests& tests, const std::string& name) {
   std::vector<std::string> names;
@@ -58,15 +55,14 @@ Result<std::size_t> place_of_test(const Tests& tests, const std::string& name) {
   return no_such_test(name, names);
 }
 
-/// All that decides the way of a study's search, as JSON text: the study without its title and budget, and the content
-/// of its laboratory files.
+/// Everything that affects the search, as JSON text: the study without title and budget, and its laboratory files.
 std::string inputs_of(const Study& study);
 
-/// Radius of the coarse grains over that of the study. A simulation costs about the fourth power of it: a fifth.
+/// Radius of the coarse grains over that of the study. The cost falls with about its fourth power, to a fifth.
 inline constexpr double coarse_radius_ratio = 1.5;
 
-/// The study with grains `coarse_radius_ratio` times as large; its parameters are free of scale. With fewer than some
-/// hundred grains in the mould it may not be fit to run: see `validate`.
+/// The study with grains `coarse_radius_ratio` times as large; its parameters are scale-free. With fewer than some
+/// hundred grains in the mould it may not be runnable: see `validate`.
 Study with_coarse_grains(Study study);
 
 }  // namespace pastefit

@@ -50,7 +50,7 @@ std::string grains_in_words(const Test& test) {
          format("%g mm", mm * specimen_of(test).grains.radius_m) + " mean radius";
 }
 
-/// A test of a single body has as many grains as it needs.
+/// Tests of a single body need no minimum number of grains.
 bool is_bed(const Test& test) {
   return why_of_that_size(test).empty();
 }
@@ -73,7 +73,7 @@ std::vector<std::string> notes_on_tolerances(const Study& study) {
     const Test& test = study.tests[reading.test].lab.test;
     const auto own_kinds = reading_kinds(test);
     const ReadingKind* kind = find_kind(own_kinds, reading.measurement.reading);
-    // A shift has the tolerance that the standards' rejection of sheared heaps gives it.
+    // The tolerance of a shift comes from the standards' rejection of sheared-off heaps.
     if (reading.weight == 0 || !kind || kind->key.find("lateral_shift") != kind->key.npos) continue;
     const double published = kind->published_deviation;
     const double measured = reading.measurement.standard_deviation;

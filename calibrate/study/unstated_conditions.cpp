@@ -22,7 +22,7 @@ Parameter& parameter_of(Study& study, const std::string& name) {
   return *std::ranges::find(study.parameters, name, &Parameter::name);
 }
 
-/// Sliding friction on the surfaces of a test, where the default is taken.
+/// Adds the sliding friction of surfaces for which the default is used.
 void add_frictions(Study& study, std::size_t test, std::vector<UnstatedCondition>& out) {
   for (const Surface& surface : surfaces_of(study.tests[test].lab.test)) {
     const Parameter& friction = parameter_of(study, std::string(surface.name) + "_friction");

@@ -12,7 +12,7 @@
 namespace pastefit {
 namespace {
 
-/// "7 1/4", "7-1/4" and "7¼" as 7.25, and of inches "1/4" as 0.25: "18/19 cm" are two readings.
+/// Converts "7 1/4", "7-1/4" and "7¼" to 7.25, and "1/4" in inches to 0.25; "18/19 cm" are two readings.
 std::string with_decimals(std::string text) {
   static const std::regex fraction(R"((?:(\d{1,6})[ -])?\b(\d{1,2})/(\d{1,2})\b)");
   static const std::array<std::pair<std::regex, const char*>, 3> signs{
@@ -34,7 +34,7 @@ std::string with_decimals(std::string text) {
   return out.append(from, text.cend());
 }
 
-/// What to write in the place of a text that is no number, where it is known what was meant.
+/// Suggested replacement for a text that is not a number, if its meaning is known; otherwise empty.
 std::string_view meant_by(const std::string& text) {
   constexpr std::size_t longest = 100;  // std::regex recurses with the length
   static const std::array<std::pair<std::regex, std::string_view>, 6> meanings{{
@@ -54,7 +54,7 @@ std::string_view meant_by(const std::string& text) {
   return "";
 }
 
-/// The texts of the numbers: one ends at a semicolon, at a comma before a space, or at a space before a digit.
+/// Splits a text at semicolons, at commas before a space, and at spaces before a digit.
 std::vector<std::string_view> parts_of(std::string_view text) {
   std::vector<std::string_view> parts;
   std::size_t start = 0;
