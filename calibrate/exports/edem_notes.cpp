@@ -27,7 +27,7 @@ std::string rolling_in_edem(const ContactModel& contact) {
          "   each body's own spin, and is twice as strong between equal grains.\n";
 }
 
-/// `surface_energy` is that of two grains.
+/// `surface_energy`: of two grains.
 std::string walls_in_edem(const ExportScene& scene, double surface_energy) {
   std::string out;
   for (const auto& [name, wall] : walls_of(scene.test))
@@ -48,7 +48,7 @@ std::string jkr_instructions(const ExportScene& scene) {
                                                   {"walls", walls_in_edem(scene, contact.surface_energy_j_m2)}});
 }
 
-/// EEPA's own numbers of two grains, or of a wall with a share of their attraction. A pull-off is added to the force.
+/// EEPA parameters of two grains, or of a wall with a share of their attraction. A pull-off is added to the force.
 std::string eepa_numbers(const ContactModel& contact, double energy, double pull_off, double share) {
   return format(
       "constant pull-off force %.6g N of attraction, surface energy %.6g J/m2, contact plasticity ratio %.6g,\n"
@@ -86,7 +86,7 @@ Export eepa_notes(const ExportScene& scene) {
        "Not run in EDEM. PFC's eepa and LIGGGHTS's edinburgh without fixKc have the same pull-off."}};
 }
 
-/// Surface energy of JKR that attracts two mean grains at touch by this force, 8/3 pi gamma R*, R* = R/2.
+/// Surface energy of JKR with this attraction of two mean grains at touch, 8/3 pi gamma R*, R* = R/2.
 double jkr_energy_of_touch(double force, double radius) {
   return 3 * force / (4 * std::numbers::pi * radius);
 }
@@ -114,7 +114,7 @@ Result<Export> export_edem_notes(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
   const bool sticks = contact.normal == NormalLaw::jkr;
   KnownLaws known{"EDEM", {NormalLaw::hertz, NormalLaw::jkr, NormalLaw::epa}, kAllRolling};
-  if (sticks) known.attraction = {BridgeShape::none};  // a plug-in takes the place of EDEM's own JKR
+  if (sticks) known.attraction = {BridgeShape::none};  // a plug-in replaces EDEM's JKR
   if (Faults faults = unknown_laws(contact, known); !faults.empty()) return faults;
   if (contact.normal == NormalLaw::epa) return eepa_notes(scene);
   if (sticks)

@@ -33,7 +33,7 @@ std::vector<Leg> two_grain_legs(const ContactModel& contact, double radius) {
     const double spacing = (farthest - nearest) / 240;
     return {{"apart", nearest, farthest + spacing, 241}, {"back", farthest, nearest - spacing, 241}};
   }
-  // Overlaps over the radius. None is a multiple of the spacing: at an overlap of zero rounding decides on contact.
+  // Overlaps over the radius, not multiples of the spacing: at zero overlap, rounding would decide on contact.
   constexpr std::array turns{-0.0095, 0.0505, 0.0305, 0.0605, 0.0055, 0.0455, 0.0805, -0.0055, 0.0205, -0.0095};
   std::vector<Leg> legs;
   for (std::size_t i = 1; i < turns.size(); ++i)
@@ -61,7 +61,7 @@ double eepa_surface_energy(const ExportScene& scene) {
       contact.plasticity_ratio * std::pow(matched_overlap_ratio(scene) * effective, m);  // p^m = l d^m
   const double kc = contact.adhesion_ratio * k1, k2 = k1 / (1 - contact.plasticity_ratio);
   const double pull_off = kc * k2 / (kc + k2) * plastic_power;
-  // Where spheres that overlap by p intersect: a^2 = 2 R* p for p << R.
+  // Intersection circle of spheres with overlap p: a^2 = 2 R* p for p << R.
   const double patch = std::sqrt(2 * effective * std::pow(plastic_power, 1 / m));
   return patch > 0 ? pull_off / (1.5 * std::numbers::pi * patch) : 0;
 }
@@ -78,7 +78,7 @@ std::string lammps_granular_words(const ExportScene& scene) {
 
 namespace {
 
-/// That a constant pull-off belongs to two mean grains, if there is one and grains differ in size; else empty.
+/// Note that a constant pull-off is exact for two mean grains only; empty without pull-off, or for equal grains.
 std::string note_of_pull_off(const ExportScene& scene) {
   const double pull_off = cohesion_n(scene.contact(), scene.mean_pair());
   if (pull_off == 0 || scene.grains().distribution == SizeDistribution::mono) return {};
@@ -95,15 +95,15 @@ bool is_linear(const ContactModel& contact) {
   return contact.normal == NormalLaw::luding;
 }
 
-/// S_n = dF/dd of the card's loading at the matched overlap, over the deck's spring, on which the card's dashpots and
-/// tangential and rolling springs are based.
+/// S_n = dF/dd of the card's loading at the matched overlap, over the deck's spring. The card's dashpots and tangential
+/// and rolling springs are proportional to S_n.
 double tangent_share(const ContactModel& contact) {
   return is_linear(contact) ? 1 : 1.5;
 }
 
-/// LIGGGHTS's tangential and rolling springs go with the root of the overlap, as those of `epa` do. Those of `luding`
-/// do not: there they are the card's at this share of the matched overlap. At the whole of it they would be too soft
-/// where grains slide, and heaps stood at 102 mm instead of 170; at a ninth it was 164 mm.
+/// LIGGGHTS' tangential and rolling springs vary with the root of the overlap, like those of `epa`. Those of `luding`
+/// are constant; they are matched at this share of the matched overlap. At the full overlap they would be too soft for
+/// sliding grains: heaps were 102 mm high instead of 170 mm, and 164 mm with a ninth.
 constexpr double kSpringOverlapShare = 1.0 / 9;
 
 /// S_n of the card over 2 E' sqrt(R* d) of the deck.
@@ -111,7 +111,7 @@ double spring_share(const ContactModel& contact, double overlap_ratio) {
   return tangent_share(contact) / std::sqrt(overlap_ratio * (is_linear(contact) ? kSpringOverlapShare : 1));
 }
 
-/// A number for the grains and each wall, from the constants of the pair.
+/// Values for the grains and each wall from the pair constants.
 template <class OfPair>
 std::string of_pairs(const ExportScene& scene, const OfPair& of_pair) {
   std::vector<double> values{of_pair(grain_pair(scene.contact(), scene.radius_m()))};
@@ -148,7 +148,7 @@ double Edinburgh::restitution(double card) const {
 }
 
 std::string edinburgh_models(const ContactModel& contact) {
-  // Of the net force: mu |F|, and the rolling spring of the loading stiffness.
+  // Net force: limit mu |F|, rolling spring of the loading stiffness.
   const bool net = contact.friction_basis == FrictionBasis::net;
   std::string out = std::string("model edinburgh tangential ") + (net ? "history" : "tan_luding");
   if (contact.rolling != RollingModel::none && contact.rolling_friction > 0)
@@ -179,7 +179,7 @@ std::string edinburgh_properties(const ExportScene& scene, const Edinburgh& edin
   property("coeffMu", of_pairs(scene, [](const PairConstants&) { return 1.0; }));
   property("coeffFrictionStiffness",
            of_pairs(scene, [&](const PairConstants& k) { return k.tangential_ratio * spring; }));
-  // Debian's build asks for the first name, the source for the second.
+  // Debian's build requires the first name, the source the second.
   for (const char* name : {"FluidViscosity", "FrictionViscosity"})
     property(name, of_pairs(scene, [](const PairConstants& k) { return std::sqrt(k.tangential_ratio); }));
   property("coeffRollingStiffness", of_pairs(scene, [&](const PairConstants& k) {

@@ -129,9 +129,9 @@ SizeClasses size_classes(std::span<const double> radii, int most) {
 
 namespace {
 
-const std::string kStyleFolder = "style/";  // sources of LAMMPS: the same for every card
+const std::string kStyleFolder = "style/";  // LAMMPS sources, identical for every card
 
-/// Where a target's reader would take the line for something else, it becomes part of the first line.
+/// Inserts a comment line, into the first line where the target's format requires it.
 std::string marked(const ExportFile& file, const std::string& line) {
   if (file.name.ends_with(".txt")) return line + "\n\n" + file.content;
   const std::string comment = deck_comment(line);
@@ -141,7 +141,7 @@ std::string marked(const ExportFile& file, const std::string& line) {
   return comment + file.content;
 }
 
-/// Which of the card's tests was written, where there are several.
+/// Names the exported test if the card has several.
 std::string choice_text(const Card& card, const CardTest& chosen) {
   std::string others;
   for (const auto& test : card.tests)
@@ -151,7 +151,7 @@ std::string choice_text(const Card& card, const CardTest& chosen) {
          " (pastefit export --test NAME).\n\n";
 }
 
-/// The heap to expect, and the command that compares that of the other program with it.
+/// Expected heap, and the command that compares the other program's heap with it.
 std::string comparison_text(const ExportRequest& request, const Card& card, const CardTest& test,
                             const std::string& heap, bool other_law) {
   std::string out;
@@ -169,7 +169,7 @@ std::string comparison_text(const ExportRequest& request, const Card& card, cons
   return out + "\n";
 }
 
-/// What another law in place of the card's does to the heap, and how to do without it.
+/// Effect of a substitute law on the heap, and how to avoid it.
 std::string bias_text(const Export& written) {
   if (written.own_law.empty()) return {};
   std::string out = "\nAnother law than the card's is written, so expect another heap.\n";
@@ -180,7 +180,7 @@ std::string bias_text(const Export& written) {
   return out + "To have none: calibrate with a law that this program has, in the study\n    " + written.own_law + "\n";
 }
 
-/// For a person.
+/// Content of `kExportNotes`.
 std::string export_notes(const Export& written, const Exporter& exporter, const Card& card, const CardTest& test,
                          const ExportRequest& request) {
   std::string out = one_line(title_of(card, test)) + "\n" + std::string(exporter.meaning) + "\n\n" +
@@ -194,7 +194,7 @@ std::string export_notes(const Export& written, const Exporter& exporter, const 
   return out;
 }
 
-/// A card that is not confirmed leaves pastefit only if the user accepts that.
+/// Fault of an unconfirmed card that the request does not accept.
 Faults unconfirmed_faults(const Card& card, bool accepted) {
   const std::string cause = cause_unconfirmed(card);
   if (cause.empty() || accepted) return {};
@@ -202,7 +202,7 @@ Faults unconfirmed_faults(const Card& card, bool accepted) {
            "calibrate until it is confirmed, or give --unconfirmed: every file then begins with this"}};
 }
 
-/// Writes why the card is not confirmed as the first line of every file about its material; nothing for one that is.
+/// Writes the reason as the first line of every file about the material, if the card is unconfirmed.
 void mark_unconfirmed(const Card& card, Export& written) {
   const std::string line = one_line(unconfirmed_line(card));
   if (line.empty()) return;

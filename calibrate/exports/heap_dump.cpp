@@ -18,7 +18,7 @@ namespace pastefit {
 namespace {
 
 constexpr std::size_t kMostDumpFaults = 20;
-constexpr double kFarthest = 1e3;  // [m]; no slump test is larger
+constexpr double kFarthest = 1e3;  // [m]; larger than any slump test
 constexpr std::array<std::string_view, 5> kDumpColumns{"id", "x", "y", "z", "radius"};
 const std::string kDumpRemedy = "write it with \"dump ... custom ... id x y z radius\"";
 
@@ -32,7 +32,7 @@ std::vector<std::string_view> columns_of_line(std::string_view line) {
   }
 }
 
-/// A snapshot of a dump while it is read line by line.
+/// Line-by-line parser of one snapshot.
 class DumpReader {
  public:
   explicit DumpReader(const std::string& name) : name_(name) {}
@@ -167,7 +167,7 @@ Result<Particles> read_dump(const std::filesystem::path& file) {
 
 namespace {
 
-/// Grains of another size or unit than the card's, or a dump of grains that do not lie on the table.
+/// Faults of grains in another size or unit than the card's, or away from the table.
 Faults misplaced(const std::string& dump, const Particles& grains, const Packing& packing) {
   constexpr double size_room = 0.05, height_room = 2;  // of the mean radius
   double expected_m = 0, radius_m = 0, lowest_m = 1e300;

@@ -27,7 +27,7 @@ const std::string kBuild =
     "    ./lmp_pastefit -in DECK                  or: mpirun -np 2 ./lmp_pastefit -in DECK, which is in.slump or\n"
     "    in.two_grains\n";
 
-/// LAMMPS of 2025 has the law, Debian's does not; not run by us.
+/// LAMMPS of 2025 has this law, Debian's version does not; untested.
 std::string note_of_granular(const ExportScene& scene) {
   return "LAMMPS of 2025 and later has this law of its own, in pair_style granular. By its manual (we have not run "
          "it):\n    " +
@@ -40,7 +40,7 @@ std::string note_of_granular(const ExportScene& scene) {
          "its tangential spring feels the contact radius of the plastic overlap.";
 }
 
-/// The engine's laws and their names, as calibrate/CMakeLists.txt installs them beside the style.
+/// Laws of the engine and their names; calibrate/CMakeLists.txt installs them beside the style.
 constexpr std::array<std::array<std::string_view, 2>, 6> kLaws{{{"core/laws", ".h"},
                                                                 {"core/laws", ".cpp"},
                                                                 {"core", "/inline.h"},
@@ -52,7 +52,7 @@ bool has_laws(const std::vector<ExportFile>& files) {
   return std::ranges::count(files, "core/laws/contact.h", &ExportFile::name) > 0;
 }
 
-/// Adds the files of a folder and below it that end so, with their path from `root`.
+/// Adds files with this ending in a folder and its subfolders, with paths relative to `root`.
 void add_files(const fs::path& root, const fs::path& folder, std::string_view ending, std::vector<ExportFile>& files) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder, error)) {
@@ -69,7 +69,7 @@ Result<std::vector<ExportFile>> lammps_style() {
   for (const fs::path& data : data_folders()) {
     std::vector<ExportFile> files;
     add_files(data / "lammps", "", "", files);
-    // An installed folder has the laws in it; where the sources lie they are beside the data.
+    // Installed folders contain the laws; in the source tree they are beside the data.
     if (!has_laws(files))
       for (const auto& [folder, ending] : kLaws)
         add_files(data.lexically_normal().parent_path(), folder, ending, files);

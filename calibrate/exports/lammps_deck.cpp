@@ -23,8 +23,8 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kRelaxDrag = 40;     // [1/s], as in our own relaxation of the fill
-constexpr double kGroundDepth = 0.1;  // [m] below the table, as in our own test
+constexpr double kRelaxDrag = 40;     // [1/s], same as pastefit's relaxation of the filling
+constexpr double kGroundDepth = 0.1;  // [m] below the table, same as in pastefit
 
 std::string header(const ExportScene& scene, const std::vector<std::string>& notes) {
   std::string out = deck_comment(scene.title) + "# written by " + program_identity() + " from a material card\n";
@@ -43,16 +43,16 @@ std::string short_of(double value) {
   return format("%.6g", value);
 }
 
-/// The walls of the test; of a slump test besides the ground, where grains land that flow over the table's edge.
+/// Walls of the test. A slump test also has a ground, for grains that leave the table.
 std::vector<ExportWall> walls_in_deck(const ExportScene& scene) {
   auto walls = walls_of(scene.test);
   if (!scene.slump()) return walls;
   walls.push_back({"ground", scene.slump()->table_wall});
-  walls.back().contact.rolling_friction = 1;  // as in our own test
+  walls.back().contact.rolling_friction = 1;  // same as in pastefit
   return walls;
 }
 
-/// The fixes of the walls, whose laws are the variables NAME_law.
+/// Fixes of the walls; their laws are the variables NAME_law.
 std::string wall_fixes(const ExportScene& scene, const std::string& before = "") {
   std::string out;
   for (const ExportWall& wall : walls_in_deck(scene))
@@ -60,8 +60,8 @@ std::string wall_fixes(const ExportScene& scene, const std::string& before = "")
   return out;
 }
 
-/// What a card says of a law, as words of a command: " &" and each name with its value on a line of its own, or all on
-/// one line. Names inside of an object have its path.
+/// A law's JSON as words of a command: " &" and one name with its value per line, or all on one line. Nested names
+/// include their path.
 std::string words_of(const nlohmann::json& object, const char* between, const std::string& path = "") {
   std::string out;
   for (const auto& [name, value] : object.items()) {
@@ -92,7 +92,7 @@ std::string wall_laws(const ExportScene& scene) {
   return out;
 }
 
-/// Of each size class, such that all grains slow down alike.
+/// Drag of each size class with equal deceleration.
 std::string drag(const ExportScene& scene) {
   const auto& sizes = scene.sizes.radii_m;
   const double mass = 4.0 / 3.0 * std::numbers::pi * sizes[0] * sizes[0] * sizes[0] * scene.grain_density_kg_m3;
@@ -102,7 +102,7 @@ std::string drag(const ExportScene& scene) {
   return out;
 }
 
-/// Step 2. Turning up takes the way of our own test; then the plate falls by its own weight and that of the heap.
+/// Step 2. The plate is turned up with pastefit's motion, then falls under its weight and that of the heap.
 std::string drop_of(const DropPlate& drop) {
   return filled_in("exports/texts/lammps_drop.in", {{"duration", short_of(drop.lift_duration_s)},
                                                     {"duration_exact", full(drop.lift_duration_s)},
@@ -112,7 +112,7 @@ std::string drop_of(const DropPlate& drop) {
                                                     {"arm", full(0.5 * drop.length_m)}});
 }
 
-/// material.inc: the laws alone, to be included once the grains are there, by the decks and by scripts of others.
+/// material.inc: laws only, included after the grains by decks and by users' scripts.
 std::string material_file(const ExportScene& scene) {
   return filled_in("exports/texts/lammps_material.in", {{"title", deck_comment(scene.title)},
                                                         {"program", program_identity()},
@@ -125,8 +125,8 @@ std::string material_file(const ExportScene& scene) {
                                                         {"wall_laws", wall_laws(scene)}});
 }
 
-/// The slump test: relax in the mould, lift, rest; and, where the card has a drop plate, step 2: turn the plate up,
-/// rest, let it fall, rest. Notes become comments.
+/// Slump test: relax in the mould, lift, rest; with a drop plate also step 2: turn the plate up, rest, drop, rest.
+/// Notes become comments.
 std::string slump_deck(const ExportScene& scene, const std::vector<std::string>& notes) {
   const SlumpTest& test = *scene.slump();
   const double half = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
@@ -225,7 +225,7 @@ std::string grains_data(const ExportScene& scene, const DataFile& file) {
 
 namespace {
 
-/// The words of a line, numbers as in C whatever the locale.
+/// Stream over the words of a line, with C numbers in every locale.
 std::istringstream line_stream(const std::string& line) {
   std::istringstream words(line);
   words.imbue(std::locale::classic());

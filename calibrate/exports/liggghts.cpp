@@ -37,7 +37,7 @@ Models models_of(const ContactModel& contact, bool attracts) {
   return {base + " cohesion easo/capillary/viscous" + rolling, base + rolling, reduce};
 }
 
-/// The value of the grains, then those of the walls; `of` takes what either has.
+/// Values of the grains, then of the walls; `of` accepts both.
 template <class Of>
 std::vector<double> by_type(const ContactModel& grains, const std::vector<ExportWall>& walls, const Of& of) {
   std::vector<double> out{of(grains)};
@@ -51,7 +51,7 @@ std::string one_each(const std::vector<double>& values) {
   return out;
 }
 
-/// Energy density of sjkr2 by which a wall holds the grains as the card's does.
+/// Energy density of sjkr2 with the card's adhesion to the wall.
 double energy_density(const ContactModel& card, const WallContact& wall, double radius) {
   if (card.normal == NormalLaw::sjkr) return card.cohesion_energy_density_pa * wall.cohesion_factor;
   return sjkr_energy_density(sticking_of(card, wall, radius).pull_off_n, radius,
@@ -80,7 +80,7 @@ std::string properties(const ExportScene& scene, const Written& written) {
   property(6, "coefficientRollingViscousDamping", pairs_of(by_body([&](auto&) { return rolling_damping; })));
   if (written.edinburgh) out += edinburgh_properties(scene, *written.edinburgh);
   if (contact.normal == NormalLaw::sjkr) {
-    // sjkr2 has twice the area of the card's law.
+    // The area of sjkr2 is twice that of the card's law.
     std::vector<double> halves{0.5 * contact.cohesion_energy_density_pa};
     for (const ExportWall& wall : walls)
       halves.push_back(0.5 * energy_density(scene.contact(), wall.contact, scene.radius_m()));
@@ -88,7 +88,7 @@ std::string properties(const ExportScene& scene, const Written& written) {
   }
   if (!fit) return out;
   const double radius = fit->bridge.radius_m;
-  // LIGGGHTS gives each bridge the share 1 - sqrt(3/4) of the liquid on one of two equal grains.
+  // LIGGGHTS assigns the share 1 - sqrt(3/4) of the liquid on one of two equal grains to each bridge.
   const double grain = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
   out += "fix p7 all property/global surfaceLiquidContentInitial scalar " +
          exact(fit->bridge.volume_m3 / (grain * (1 - std::sqrt(0.75)))) + "\n";
@@ -101,7 +101,7 @@ std::string properties(const ExportScene& scene, const Written& written) {
   return out;
 }
 
-/// material.inc: properties, pair style and the model of walls, for a script with types for the grains and each wall.
+/// material.inc: properties, pair style and wall model, for a script with types for the grains and each wall.
 std::string liggghts_material(const ExportScene& scene, const Written& written, const Models& models) {
   const auto walls = walls_of(scene.test);
   std::string fixes;
@@ -135,7 +135,8 @@ std::vector<std::string> liggghts_losses(const ExportScene& scene, const Written
   }
   const GrainPair pair = scene.mean_pair();
   const Sticking deck = sticking_of(written, 0.5 * scene.radius_m());
-  // Reduced, LIGGGHTS's friction is that of the force less its cohesion: nothing where grains only stick.
+  // With a reduced limit, LIGGGHTS subtracts the cohesion from the friction force: none for grains held by adhesion
+  // only.
   std::vector<std::string> notes = differences_of_sticking(
       scene, written, "LIGGGHTS", contact.friction_basis == FrictionBasis::elastic ? deck.load_n : 0);
   if (fit) {
@@ -185,7 +186,7 @@ ExportFile bridge_curves(const ExportScene& scene, const SoulieFit& fit) {
   return {"curves.csv", text};
 }
 
-/// What LIGGGHTS 3.8.0 refuses when a deck starts (`0.05 < coefficientRestitution <= 1 required`).
+/// Limits checked by LIGGGHTS 3.8.0 at the start (`0.05 < coefficientRestitution <= 1 required`).
 Faults beyond_limits(const ExportScene& scene) {
   constexpr double kLeastRestitution = 0.05;
   Faults faults;
@@ -201,7 +202,7 @@ Faults beyond_limits(const ExportScene& scene) {
   return faults;
 }
 
-/// What a study has to choose so that the deck has the card's law; empty: it has.
+/// Study settings that avoid a substitute law; empty if the deck has the card's law.
 std::string own_law(const ContactModel& card, const Written& written) {
   if (written.edinburgh)
     return card.normal == NormalLaw::luding ? "" : R"("contact": {"normal": "luding", "attraction": "none"})";
@@ -231,7 +232,7 @@ Result<Export> export_liggghts(const ExportScene& scene) {
       "LIGGGHTS",
       {NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt, NormalLaw::sjkr, NormalLaw::epa, NormalLaw::luding},
       kAllRolling};
-  if (card.normal != NormalLaw::hertz) known.attraction = {BridgeShape::none};  // it has one cohesion at a time
+  if (card.normal != NormalLaw::hertz) known.attraction = {BridgeShape::none};  // only one cohesion model at a time
   Faults faults = unknown_laws(card, known);
   for (Fault& fault : beyond_limits(scene)) faults.push_back(std::move(fault));
   if (!faults.empty()) return faults;

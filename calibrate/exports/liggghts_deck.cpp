@@ -33,10 +33,10 @@ std::string slump_walls(const Models& models) {
          "\nfix          mould all wall/gran ${wall_model} mesh n_meshes 1 meshes cone" + models.wall_end() + "\n";
 }
 
-/// Grains that fill the mould carry their loads on springs of the exponent 3/2. Before contacts on linear springs
-/// remember how deep they were pressed, they come to rest on those: else light contacts would be pressed too hard.
+/// Two-stage relaxation. Grains from the filling carry their loads on springs of exponent 3/2; they first settle on
+/// linear springs without history, otherwise light contacts would be overloaded.
 struct Takeover {
-  std::string before, after;  ///< commands, before the walls are there and once the grains are at rest
+  std::string before, after;  ///< commands before the walls exist, and after the grains are at rest
 
   Takeover(const ExportScene& scene, const Models& models, long steps) {
     const std::string forget = "unfix        unloading\nunfix        adhesion\n";
@@ -48,7 +48,7 @@ struct Takeover {
   }
 };
 
-/// Of LIGGGHTS only the way apart; of a law with memory the whole way.
+/// Separation only in LIGGGHTS; the whole motion for laws with history.
 std::vector<Leg> liggghts_legs(const ExportScene& scene, const Written& written) {
   const double radius = scene.radius_m();
   std::vector<Leg> legs = two_grain_legs(written.contact, radius);
@@ -87,7 +87,7 @@ std::string liggghts_slump(const ExportScene& scene, const Written& written, con
        {"rest", std::to_string(steps(2.0))}});
 }
 
-/// Grains are held and moved so slowly that damping does not count, with a step as long as need be.
+/// Grains are held and moved so slowly that damping is negligible; the step is as long as possible.
 std::string liggghts_two_grains(const ExportScene& scene, const Written& written,
                                 const std::vector<std::string>& notes) {
   const double radius = scene.radius_m(), speed = 1e-9;

@@ -10,8 +10,8 @@
 
 namespace pastefit {
 
-/// The models of grains and walls in LIGGGHTS's words. Cohesion has to stand before rolling friction; settings come
-/// last, in a wall's fix after its geometry.
+/// Models of grains and walls in LIGGGHTS syntax. Cohesion must precede rolling friction. Settings come last, in a
+/// wall's fix after its geometry.
 struct Models {
   std::string grains, walls;
   std::string grain_settings = {}, wall_settings = {};
@@ -20,13 +20,13 @@ struct Models {
     return "pair_style   gran " + grains + (grain_settings.empty() ? "" : " " + grain_settings) +
            "\npair_coeff   * *\n";
   }
-  /// What ends the fix of a wall.
+  /// End of a wall's fix.
   std::string wall_end() const { return wall_settings.empty() ? "" : " ${wall_settings}"; }
 };
 
-/// What stands for the card's law.
+/// The law as written, and how it represents the card's.
 struct Written {
-  ContactModel contact;                ///< with the law that stands in for the card's
+  ContactModel contact;                ///< with the substitute law
   std::optional<SoulieFit> fit;        ///< of a bridge
   std::optional<Edinburgh> edinburgh;  ///< of elasto-plastic adhesion
   double time_step_s = 0;
@@ -36,20 +36,20 @@ struct Written {
   double restitution(double card) const { return edinburgh ? edinburgh->restitution(card) : card; }
 };
 
-/// The command of that name. Sorted, LIGGGHTS may list a pair the other way round, and turns the sign of what edinburgh
-/// remembers of it: the contact then loads anew.
+/// `atom_modify` command. With sorting, LIGGGHTS may swap a pair, which inverts the sign of edinburgh's history: the
+/// contact then starts anew.
 std::string atom_modify(const ContactModel& contact);
 
-/// The slump test: relax in the mould, lift, rest. Notes become comments.
+/// Slump test: relax in the mould, lift, rest. Notes become comments.
 std::string liggghts_slump(const ExportScene& scene, const Written& written, const Models& models,
                            const std::vector<std::string>& notes);
 
-/// Two grains on their way (`two_grain_legs`), of laws without a memory only apart; prints "apart DISTANCE FORCE" or
-/// "path DISTANCE FORCE". Where there is no other deck it has the notes.
+/// Motion of two grains (`two_grain_legs`), for laws without history only apart; prints "apart DISTANCE FORCE" or "path
+/// DISTANCE FORCE". Contains the notes if there is no other deck.
 std::string liggghts_two_grains(const ExportScene& scene, const Written& written,
                                 const std::vector<std::string>& notes);
 
-/// The mould's side.
+/// Lateral surface of the mould.
 std::string mould_stl(const Mould& mould);
 
 }  // namespace pastefit

@@ -12,8 +12,8 @@ namespace pastefit {
 
 namespace {
 
-/// Numbers of LinearPlasticViscoelasticNormalSpecies for two mean grains. Its unloading stiffness grows in proportion
-/// to the deepest overlap, from k1 to its largest value at delta*; here delta* is twice the matched overlap, where it
+/// Parameters of LinearPlasticViscoelasticNormalSpecies for two mean grains. Its unloading stiffness is linear in the
+/// largest overlap, from k1 to its maximum at delta*. Here delta* is twice the matched overlap, at which the stiffness
 /// is the card's.
 std::string plastic_instructions(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();

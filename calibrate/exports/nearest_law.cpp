@@ -27,13 +27,13 @@ void look(T chosen, const std::vector<T>& known, const std::array<Named<T>, N>& 
                     "export to another target, or calibrate with " + key + " " + list});
 }
 
-/// Force at an overlap on the way apart [N], repulsion positive.
+/// Force at an overlap during separation [N], repulsion positive.
 double force_apart(NormalLaw normal, const PairConstants& pair, double effective_radius, double overlap) {
   return with_law(NormalLaws{}, normal,
                   [&](auto law) { return law.at(pair, std::sqrt(effective_radius), overlap, 1.0).force; });
 }
 
-/// `pair` is that of reference bodies with this R*.
+/// `pair`: constants of reference bodies with this R*.
 Sticking sticking(NormalLaw normal, const PairConstants& pair, double effective_radius) {
   if (acting(normal, pair) == NormalLaw::hertz) return {};
   return with_law(NormalLaws{}, normal, [&](auto law) {
@@ -45,9 +45,9 @@ Sticking sticking(NormalLaw normal, const PairConstants& pair, double effective_
     out.load_n = rest.load;
     out.reserve_n = rest.reserve;
     if constexpr (decltype(law)::adheres) out.work_j = -law.energy(pair, effective_radius, rest, out.resting_overlap_m);
-    const double touch = 1e-12 * out.resting_overlap_m;  // a law that does not reach pulls nothing at zero
+    const double touch = 1e-12 * out.resting_overlap_m;  // laws without range have no attraction at zero overlap
     out.at_touch_n = -law.at(pair, root, touch, 1.0).force;
-    // The attraction has one maximum between the end of the contact and its rest.
+    // The attraction has a single maximum between separation and rest.
     double low = law.reaches ? -out.part_gap_m : touch, high = out.resting_overlap_m;
     for (int step = 0; step < 200; ++step) {
       const double third = (high - low) / 3;
@@ -60,7 +60,7 @@ Sticking sticking(NormalLaw normal, const PairConstants& pair, double effective_
   });
 }
 
-/// Two grains of this R*, as reference grains.
+/// Constants of two grains with this R*, as reference grains.
 PairConstants grains_of(const ContactModel& contact, double effective_radius) {
   return grain_pair(contact, 2 * effective_radius);
 }

@@ -10,12 +10,12 @@
 
 namespace pastefit {
 
-/// The laws that a target can express. A law that is added later is not among them until its exporter says so.
+/// Laws that a target supports. A new law is unsupported until its exporter lists it.
 struct KnownLaws {
-  std::string_view target;  ///< as people call it
+  std::string_view target;  ///< display name
   std::vector<NormalLaw> normal{NormalLaw::hertz};
   std::vector<RollingModel> rolling{RollingModel::none, RollingModel::spring_dashpot};
-  std::vector<BridgeShape> attraction = {};  ///< empty: whatever the curve, as a table or a fit
+  std::vector<BridgeShape> attraction = {};  ///< empty: any curve, as a table or a fit
   bool viscosity = false;                    ///< lubrication by the liquid of a bridge
 };
 
@@ -26,58 +26,59 @@ inline const std::vector<RollingModel> kAllRolling{RollingModel::none, RollingMo
 inline const std::vector<BridgeShape> kAllAttractions{BridgeShape::none, BridgeShape::polynomial, BridgeShape::linear,
                                                       BridgeShape::exponential, BridgeShape::capillary};
 
-/// A fault for each law of the contact that is not known.
+/// Faults for the unsupported laws of a contact.
 Faults unknown_laws(const ContactModel& contact, const KnownLaws& known);
 
-/// Two bodies that stick, as a law of the overlap has them, on the way apart and slowly.
+/// Adhesion of two bodies by a law of the overlap, during slow separation.
 struct Sticking {
   double pull_off_n = 0;                         ///< largest attraction
   double at_touch_n = 0;                         ///< attraction at an overlap of zero
-  double resting_overlap_m = 0, part_gap_m = 0;  ///< where the force is zero; where they let go of each other
-  double work_j = 0;                             ///< from rest until they have let go
-  double load_n = 0, reserve_n = 0;              ///< elastic part of the force at rest, and what `total` adds to it
+  double resting_overlap_m = 0, part_gap_m = 0;  ///< overlap of zero force; gap of separation
+  double work_j = 0;                             ///< from rest to separation
+  double load_n = 0, reserve_n = 0;              ///< elastic part of the force at rest; addition by `total`
 };
 
-/// Of two grains, and of a grain on a wall; R* of the pair. All zero where nothing sticks.
+/// For two grains, and for a grain and a wall; R* of the pair. All zero without adhesion.
 Sticking sticking_of(const ContactModel& contact, double effective_radius_m);
 Sticking sticking_of(const ContactModel& contact, const WallContact& wall, double radius_m);
 
-/// The distances of a deck of two mean grains: from a good deal more than they overlap at rest to beyond the end of
-/// their attraction [m].
+/// Range of the motion of two mean grains in a deck [m]: from well beyond their overlap at rest to beyond the range of
+/// their attraction.
 struct Distances {
   double nearest_m = 0, farthest_m = 0;
 };
 Distances two_grain_distances(const ContactModel& contact, double radius_m);
 
-/// Surface energy of DMT [J/m^2] that parts two bodies at this force, 4 pi gamma R*.
+/// Surface energy [J/m^2] of DMT with this pull-off force, 4 pi gamma R*.
 double dmt_surface_energy(double pull_off_n, double effective_radius_m);
 
-/// Cohesion energy density of SJKR [Pa] that does: (3 F E*^2/(2 pi^3 R*^2))^(1/3), the inverse of its largest
-/// attraction 2/3 pi^3 k^3 R*^2/E*^2. In place of JKR, with F = 3 pi gamma R*: (9 gamma E*^2/(2 pi^2 R*))^(1/3).
+/// Cohesion energy density [Pa] of SJKR with this pull-off force: (3 F E*^2/(2 pi^3 R*^2))^(1/3), the inverse of the
+/// largest attraction 2/3 pi^3 k^3 R*^2/E*^2. As a substitute for JKR, F = 3 pi gamma R*: (9 gamma E*^2/(2 pi^2
+/// R*))^(1/3).
 double sjkr_energy_density(double pull_off_n, double effective_radius_m, double effective_modulus_pa);
 
-/// The card's contact with this law, DMT or SJKR, in place of its own law of grains that stick, such that two mean
-/// grains are parted by the same force. The card's own where that is this law, or where nothing sticks.
+/// The card's contact with `law`, DMT or SJKR, as a substitute with the same pull-off of two mean grains. Unchanged if
+/// the card has that law or no adhesion.
 ContactModel with_nearest_law(const ContactModel& contact, NormalLaw law, double radius_m);
 
-/// What then differs, in numbers: of two mean grains overlap at rest, attraction at touch, gap and work of parting; of
-/// the smallest and largest grains the pull-off; and what friction holds of grains that only stick, `held_n` in the
-/// deck. Nothing if the laws are the same.
+/// Differences in numbers: for two mean grains overlap at rest, attraction at touch, gap and work of separation; for
+/// the smallest and largest grains the pull-off; and the normal force in the friction limit of grains held by adhesion
+/// only, `held_n` in the deck. Empty if the laws are the same.
 std::vector<std::string> differences_of_sticking(const ExportScene& scene, const ContactModel& written,
                                                  std::string_view target, double held_n);
 
-/// "overlap_m,card_n,TARGET_n" of two mean grains that are pulled apart; repulsion is positive.
+/// "overlap_m,card_n,TARGET_n" during separation of two mean grains; repulsion is positive.
 ExportFile sticking_curves(const ExportScene& scene, const ContactModel& written, std::string_view target);
 
-/// Friction of two mean grains that only stick, over their coefficient, as the card has it [N].
+/// Friction limit over the friction coefficient of two mean grains held by adhesion only, in the card [N].
 double held_normal_force_n(const ContactModel& contact, const Sticking& sticking);
 
-/// Lever of the spring that resists rolling, over R*: k_r = 2.25 S_n (lever R*)^2. Of a spring and dashpot mu_r, as on
-/// the card (Ai et al. 2011). In place of a constant torque, which a target lacks, stands a stiff spring, as wide as
-/// R*: it slips at the same moment after a turn that is small.
+/// Lever of the rolling spring over R*: k_r = 2.25 S_n (lever R*)^2. Spring-dashpot: mu_r, as on the card (Ai et al.
+/// 2011). A target without constant torque gets a stiff spring with lever R*, which slips at the same moment after a
+/// small rotation.
 double rolling_spring_lever(RollingModel rolling, double rolling_friction);
 
-/// How small: of two mean grains under a load [N]. Empty if the card has no constant torque.
+/// Note on the size of that rotation for two mean grains under a load [N]; empty without constant torque.
 std::string note_of_constant_torque(const ExportScene& scene, double load_n);
 
 }  // namespace pastefit

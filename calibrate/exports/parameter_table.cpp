@@ -12,7 +12,7 @@ namespace pastefit {
 
 namespace {
 
-/// One number of a card.
+/// Row of the parameter table.
 struct ParameterRow {
   std::string name;  ///< with its unit
   double value = 0;
@@ -60,7 +60,7 @@ std::string bridge_formula(BridgeShape shape) {
   }
 }
 
-/// The names of the laws in one line.
+/// Names of the laws in one line.
 std::string laws_chosen(const ContactModel& contact) {
   return "normal " + word_of(contact.normal, normal_laws) + ", bridge " + word_of(contact.bridge.shape, bridge_shapes) +
          ", formed by " + word_of(contact.bridge.formation, bridge_formations) + ", rolling " +
@@ -68,7 +68,7 @@ std::string laws_chosen(const ContactModel& contact) {
          word_of(contact.friction_basis, friction_bases) + " normal force";
 }
 
-/// The contact laws, walls, grains and apparatus of the test in SI, for grains of its mean radius.
+/// Contact laws, walls, grains and apparatus of the test in SI, for grains of mean radius.
 std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
   const Specimen& specimen = specimen_of(scene.test);
   const ContactModel& contact = specimen.contact;
@@ -106,7 +106,7 @@ std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
   return rows;
 }
 
-/// "name,value,meaning" with a header.
+/// "name,value,meaning" with header.
 ExportFile parameters_csv(const ExportScene& scene) {
   std::string text = "name,value,meaning\n";
   for (const auto& row : parameter_rows(scene))

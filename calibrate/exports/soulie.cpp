@@ -18,7 +18,7 @@ struct Sums {
   double squares = 0, largest = 0, work = 0, card_work = 0;
 };
 
-/// Difference of both curves over gaps from touch to `farthest`.
+/// Differences of both curves over gaps from touch to `farthest`.
 Sums compare(const ContactModel& contact, const GrainPair& pair, const SoulieBridge& bridge, double farthest) {
   Sums sums;
   for (int i = 0; i < kGaps; ++i) {

@@ -16,7 +16,7 @@ namespace pastefit {
 
 namespace {
 
-/// `contact` is what is written, with the law that stands in for the card's.
+/// `contact`: the law as written, possibly a substitute.
 std::string module_of(const ExportScene& scene, const ContactModel& contact) {
   const auto& bridge = contact.bridge;
   const double radius = scene.radius_m();
@@ -84,7 +84,8 @@ Result<Export> export_yade(const ExportScene& scene) {
                   {NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt, NormalLaw::sjkr},
                   kAllRolling,
                   kAllAttractions};
-  if (card.normal == NormalLaw::jkr) known.attraction = {BridgeShape::none};  // as its DMT, which has none beside it
+  if (card.normal == NormalLaw::jkr)
+    known.attraction = {BridgeShape::none};  // written as its DMT, which excludes a second attraction
   Faults faults = unknown_laws(card, known);
   for (const auto& [name, wall] : walls_of(scene.test))
     if (wall.cohesion_factor > 0)

@@ -148,7 +148,7 @@ std::optional<double> grain_density_of(const SlumpTest& test, const Readings& me
 std::span<const std::string_view> series_of(const SlumpTest& test);
 std::size_t series_at(const SlumpTest& test, const Snapshot& snapshot);
 
-/// During the first drop only.
+/// Nothing from the second drop of one heap on (`Snapshot::drop` > 0).
 std::optional<Outline> heap_at(const SlumpTest& test, const Snapshot& snapshot);
 
 /// The heap at rest after each step, for comparison with a photograph.

@@ -95,7 +95,7 @@ std::string rescaling_lines(const Card& card) {
   return out;
 }
 
-/// Why a material whose readings are met does not count as meeting the laboratory; nothing if they are not.
+/// Reason why a material with matching readings is not confirmed; empty if the readings do not match.
 std::string doubt_about(const FurtherConfirmation& one) {
   const std::size_t heaps = one.packings.size(), rejected = heaps - static_cast<std::size_t>(one.accepted);
   if (one.meets_laboratory || *one.error > 1) return "";
@@ -171,7 +171,7 @@ void add_implausible(const Card& card, std::vector<std::string>& out) {
     }
 }
 
-/// What has no strength of its own in Pa was calibrated at one pressure.
+/// Adhesion without a strength in Pa was calibrated at one pressure.
 void add_pressure(const Card& card, std::vector<std::string>& out) {
   const ContactModel& contact = card.material.contact;
   const bool yields = contact.normal == NormalLaw::epa || contact.normal == NormalLaw::luding;

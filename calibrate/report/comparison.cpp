@@ -13,12 +13,12 @@ namespace pastefit {
 
 namespace {
 
-using Values = std::vector<std::optional<double>>;  // of each card; nothing: it has none
+using Values = std::vector<std::optional<double>>;  // of each card; may be missing
 
 struct ComparedParameter {
   std::string name;
   Values values;
-  std::vector<bool> excluded;  // by the interval of another card
+  std::vector<bool> excluded;  // by another card's interval
 };
 
 struct ComparedReading {
@@ -26,7 +26,7 @@ struct ComparedReading {
   Values simulated, measured;
 };
 
-/// The least and the largest of those that are there.
+/// Range of the existing values.
 std::pair<double, double> range_of(const Values& values) {
   std::pair out{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const auto& value : values)
@@ -39,7 +39,7 @@ const Parameter* parameter_of(const Card& card, std::string_view name) {
   return found != card.material.parameters.end() && has_parameter(card, name) ? &*found : nullptr;
 }
 
-/// Whether the interval that the card has of a parameter leaves out a value.
+/// True if the card's interval of a parameter excludes a value.
 bool excludes(const Card& card, std::string_view parameter, double value) {
   const auto& intervals = card.inference.intervals;
   const auto found = std::ranges::find(intervals, parameter, &CardInference::Interval::parameter);
@@ -76,7 +76,7 @@ const CardReading* reading_of(const Card& card, std::string_view name) {
   return nullptr;
 }
 
-/// Those that some card has measured, in the order of the cards.
+/// Readings measured for any card, in the order of the cards.
 std::vector<ComparedReading> compared_readings(std::span<const CardFile> cards) {
   std::vector<ComparedReading> out;
   for (const CardFile& one : cards)
@@ -95,14 +95,14 @@ std::vector<ComparedReading> compared_readings(std::span<const CardFile> cards) 
   return out;
 }
 
-/// "A", "B", ..., "Z", "A1", ...: what a card is called in a table.
+/// Letter of a card in a table: "A", "B", ..., "Z", "A1", ...
 std::string letter_of(std::size_t card) {
   constexpr std::size_t letters = 26;
   const std::string letter(1, static_cast<char>('A' + card % letters));
   return card < letters ? letter : letter + std::to_string(card / letters);
 }
 
-/// One line of a table: cells of the cards from `first` to `last`, and what is said of all of them behind.
+/// Table row: the cells of cards `first` to `last`, then text on all of them.
 std::string table_row(const std::string& name, const Values& values, std::size_t first, std::size_t last,
                       const std::vector<bool>& marked, const std::string& behind) {
   constexpr std::size_t widest = 25;

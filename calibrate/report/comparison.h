@@ -8,19 +8,19 @@
 
 namespace pastefit {
 
-/// A card and the file that it was read from.
+/// Card with the name of its file.
 struct CardFile {
   std::string name;
   Card card;
 };
 
-/// Cards beside each other, for a terminal of 80 columns: their verdicts, the parameters that differ, and the readings.
-/// The last column is the largest value over the smallest of a parameter, and the largest difference of a reading. A
-/// value is marked where the interval that another card has of that parameter excludes it: those two measurements
-/// disagree on it. Values without a mark may differ for want of information alone. Requirement: at least two cards.
+/// Table of cards for a terminal of 80 columns: verdicts, differing parameters, and readings. Last column: largest over
+/// smallest value of a parameter, largest difference of a reading. A value is marked if another card's interval of that
+/// parameter excludes it; these two measurements disagree. Unmarked values may differ because of missing information
+/// only. Requirement: at least two cards.
 std::string comparison_lines(std::span<const CardFile> cards);
 
-/// The same as JSON: `cards`, `parameters` and `readings`; null stands for what a card does not have.
+/// The comparison as JSON: `cards`, `parameters` and `readings`; null for missing values.
 nlohmann::ordered_json comparison_json(std::span<const CardFile> cards);
 
 }  // namespace pastefit

@@ -23,7 +23,7 @@ std::string in_words(const Faults& faults) {
   return out;
 }
 
-/// What the simulations say of the card's parameters.
+/// Adds the inference of the card's parameters.
 void infer_from(const Store& store, const std::optional<Inference>& known, Findings& findings) {
   const Card& card = *findings.card;
   const auto record = everything_of(*findings.study, store);
@@ -52,7 +52,7 @@ void take_evaluations(const Store& store, const std::optional<Inference>& infere
   if (findings.card) infer_from(store, inference, findings);
 }
 
-/// Brings readings into the order in which their test gives them; a card that was read has them in the alphabet's.
+/// Sorts readings by the order of their test; a card file has them in alphabetical order.
 void order_readings(CardTest& test) {
   const auto kinds = reading_kinds(test.test);
   std::ranges::stable_sort(test.readings, {}, [&](const CardReading& one) {

@@ -13,33 +13,32 @@
 
 namespace pastefit {
 
-/// What a result folder tells of a calibration, each part by itself, and what it lacks.
+/// Contents of a result folder; every part may be missing.
 struct Findings {
   std::optional<Card> card;
-  std::optional<Study> study;                 ///< the one that the card answers, or that is being calibrated
-  bool under_way = false;                     ///< the calibration goes on: the page looks again by itself
+  std::optional<Study> study;                 ///< of the card, or of the running calibration
+  bool under_way = false;                     ///< the calibration is running: the page reloads itself
   std::vector<StoredEvaluation> evaluations;  ///< in the order of arrival
-  std::string program;                        ///< that made the evaluations; empty if it is not known
-  std::optional<TrainingData> evidence;       ///< what the evaluations say of the study
-  std::optional<Inference> inference;         ///< and what follows for its parameters
-  std::vector<TestView> views;                ///< one for each test of the card; none if they were not simulated
-  std::vector<std::string> missing;           ///< what is not there, or not whole: a sentence each
+  std::string program;                        ///< that made the evaluations; may be empty
+  std::optional<TrainingData> evidence;       ///< training data from the evaluations
+  std::optional<Inference> inference;         ///< of the parameters from that evidence
+  std::vector<TestView> views;                ///< one per test of the card; empty if not simulated
+  std::vector<std::string> missing;           ///< missing or damaged parts: one sentence each
 };
 
-/// What a calibration has found so far, or leaves if it ends without an answer.
+/// Results of a calibration that is running, or that ended without a card.
 Findings findings_without_card(const Study& study, const Store& store);
 
-/// What a calibration has found that ends now. `inference`: what it made of its simulations; none: it is made here.
+/// Results of a completed calibration. `inference`: its own; if absent, it is computed.
 Findings findings_of(const Card& card, const Store& store, const std::optional<Inference>& inference);
 
-/// What the evaluations say of a card's material.
+/// Inference of a card's material from the evaluations.
 Inference inference_of(const Card& card, const TrainingData& evidence);
 
 inline const std::string kCardFile = "card.json";
 
-/// Reads a folder that `pastefit calibrate` wrote to. What is damaged or not there is `missing`; the rest is read.
-/// `store`: name of the file with the evaluations.
-/// Error: there is no such folder, or neither card nor evaluations in it.
+/// Reads a folder written by `pastefit calibrate`. Missing and damaged parts are listed in `missing`. `store`: file
+/// name of the evaluations. Error: no such folder, or neither card nor evaluations in it.
 Result<Findings> read_findings(const std::filesystem::path& folder, const std::string& store);
 
 }  // namespace pastefit

@@ -18,8 +18,8 @@ using nlohmann::ordered_json;
 constexpr int kPoints = 60;  // on either side of touch
 constexpr double um = 1e6, mn = 1e3;
 
-/// Force of two reference grains at rest that approach, repulsion positive [N]. In the overlap the law of the overlap
-/// less the constant cohesion, across the gap the attraction.
+/// Force on two approaching reference grains at rest [N], repulsion positive: law of the overlap minus the constant
+/// cohesion in overlap, attraction across a gap.
 double force_at(const ContactModel& contact, const PairConstants& pair, double radius_m, double overlap_m) {
   if (overlap_m <= 0) return -bridge_force(contact.bridge, radius_m, overlap_m);
   const double root = std::sqrt(radius_m / 2);
@@ -28,7 +28,7 @@ double force_at(const ContactModel& contact, const PairConstants& pair, double r
          pair.cohesion;
 }
 
-/// From beyond rupture to where the overlap presses as hard as the attraction pulls.
+/// From beyond rupture to the overlap at which repulsion balances attraction.
 ordered_json points_of(const ContactModel& contact, double radius_m, double gap_m, double overlap_m) {
   const PairConstants pair = grain_pair(contact, radius_m);
   const double rupture = rupture_gap(contact.bridge, radius_m);
@@ -43,14 +43,14 @@ ordered_json points_of(const ContactModel& contact, double radius_m, double gap_
     add(overlap, force_at(contact, pair, radius_m, overlap));
   }
   for (int k = 1; k <= kPoints; ++k) {
-    // Denser near touch, where the force rises most steeply.
+    // Denser near touch, where the slope is largest.
     const double share = static_cast<double>(k) / kPoints, overlap = overlap_m * share * share;
     add(overlap, force_at(contact, pair, radius_m, overlap));
   }
   return out;
 }
 
-/// Overlap at which the repulsion is half as much again as the attraction, or some weights where nothing attracts.
+/// Overlap at which the repulsion is 1.5 times the attraction, or 20 weights of a grain without attraction.
 double deepest(const Card& card, const ContactModel& contact) {
   const double radius = card.material.grains.radius_m;
   const PairConstants pair = grain_pair(contact, radius);
@@ -60,7 +60,7 @@ double deepest(const Card& card, const ContactModel& contact) {
   return std::pow(load / (pair.hertz * std::sqrt(radius / 2)), 2.0 / 3);
 }
 
-/// The card's parameters with those of an equivalent material in the place of the free ones.
+/// The card's parameters with the free ones of an equivalent material.
 std::vector<double> values_with(const Card& card, const std::vector<double>& free) {
   std::vector<double> values = values_of(card.material);
   std::size_t next = 0;

@@ -9,7 +9,7 @@ namespace pastefit {
 
 namespace {
 
-/// The force of the laws between two grains at this overlap. `sqrt_contact_radius`: of the contact, 0 if there is none.
+/// Force of the laws between two grains at this overlap. `sqrt_contact_radius`: of the contact, 0 if there is none.
 double force_of(const World& world, double effective_radius, double overlap, bool touching, double remembered) {
   const PairConstants& pair = world.grain_pair;
   const double scale = pair.size_per_radius * effective_radius;
@@ -34,7 +34,7 @@ std::vector<Link> links_of(const World& world) {
       with_law(NormalLaws{}, acting(world.normal, world.grain_pair), [](auto law) { return law.reaches; });
   const bool yields = with_law(NormalLaws{}, world.normal, [](auto law) { return law.yields; });
   std::vector<Link> links;
-  // Pairs that lie apart may remember a contact of some steps ago: only a law that reaches beyond touch asks for it.
+  // Separated pairs may still store an old contact; only laws with a range beyond touch use it.
   const auto add = [&](std::int32_t i, std::int32_t j, const Contact& memory) {
     if (i >= grains.count() || j >= grains.count()) return;  // padding
     const Motion &one = grains.motion[i], &other = grains.motion[j];

@@ -8,21 +8,21 @@
 
 namespace pastefit {
 
-/// Two grains that act on each other at a moment.
+/// Interaction of two grains at one time.
 struct Link {
-  std::int32_t first = 0, second = 0;  ///< places in the world
-  bool touching = false;               ///< else a liquid bridge across a gap
+  std::int32_t first = 0, second = 0;  ///< indices in the world
+  bool touching = false;               ///< otherwise a liquid bridge across a gap
   double overlap_m = 0;                ///< negative: a gap
-  double force_n = 0;  ///< of the laws along the normal, repulsion positive; without the dampers, which need the past
+  double force_n = 0;  ///< normal force of the laws, repulsion positive; without dampers, which depend on the history
 };
 
-/// All contacts and living bridges between grains.
+/// All contacts and existing bridges between grains.
 std::vector<Link> links_of(const World& world);
 
-/// How many grains each of so many grains touches, by its place in the world; 255 stands for more too.
+/// Number of touched grains for each grain, by index; 255 includes larger numbers.
 std::vector<std::uint8_t> coordination_of(std::span<const Link> links, std::int32_t grains);
 
-/// What its neighbours pull on each grain, the sum over its liquid bridges and over contacts in tension [N].
+/// Tension on each grain: sum over its liquid bridges and its contacts in tension [N].
 std::vector<float> pulls_of(std::span<const Link> links, std::int32_t grains);
 
 }  // namespace pastefit

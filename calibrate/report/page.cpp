@@ -11,8 +11,8 @@
 #include "calibrate/report/page_content.h"
 #include "calibrate/report/views.h"
 
-// The page as esbuild leaves it, between two symbols. Bytes of a file in a few lines of assembler: a source made of
-// them would be five times as long, and take a second to compile.
+// The page as built by esbuild, between two symbols. Assembler embeds the file: a source of its bytes would be five
+// times as large and take a second to compile.
 asm(R"(
   .section .rodata
   .global pastefit_page_begin, pastefit_page_end
@@ -59,7 +59,7 @@ Faults look_at_tests(Findings& findings, const std::filesystem::path& folder, co
     findings.missing.push_back("The drawings show " + std::to_string(shown.size()) + " of the " +
                                std::to_string(packings.size()) + " packings that the readings are means over.");
   const auto kept = read_views(folder / kViewsFile, card, shown);
-  const Fault why = kept.ok() ? Fault{} : kept.faults().front();  // not read
+  const Fault why = kept.ok() ? Fault{} : kept.faults().front();  // reason why it was not read
   if (kept.ok()) {
     findings.views = kept.value();
   } else {
@@ -98,7 +98,7 @@ Faults write_curves(const std::filesystem::path& folder, const Findings& finding
   for (std::size_t i = 0; i < findings.views.size(); ++i) {
     const CardTest& test = findings.card->tests[i];
     const auto curve = curve_csv(test, findings.views[i]);
-    if (!curve || findings.views[i].lacking > 0) continue;  // some of the runs alone would be other means
+    if (!curve || findings.views[i].lacking > 0) continue;  // some of the runs would give other means
     written.push_back(curve_file(test.name));
     if (auto faults = write_atomically(folder / written.back(), *curve); !faults.empty()) return faults;
   }
@@ -112,7 +112,7 @@ Faults write_page(const std::filesystem::path& folder, const Findings& findings)
 
 Result<OutputFolder> open_calibration_folder(const std::filesystem::path& folder, const Study& study, bool resume,
                                              bool force) {
-  constexpr std::uintmax_t kSpaceOfEvaluation = 8u << 10;  // its row, twice: in the log and in the table
+  constexpr std::uintmax_t kSpaceOfEvaluation = 8u << 10;  // its row, twice: in log and table
   std::vector<std::string> files{kCardFile, kSummary, kPage, kViewsFile};
   for (const StudyTest& test : study.tests) files.push_back(curve_file(test.name));
   files = with_store(std::move(files));

@@ -48,7 +48,7 @@ ordered_json parameters_of(const Findings& findings) {
   return out;
 }
 
-/// What is searched where nothing was found yet.
+/// Free parameters of a search without results.
 ordered_json parameters_of(const Study& study) {
   auto out = ordered_json::array();
   for (const Parameter& parameter : study.parameters)
@@ -124,8 +124,7 @@ ordered_json json_of_drawing(const Drawing& drawing) {
   return out;
 }
 
-/// The runs of the view with the card's own readings, and those of the packings that were not looked at: means over
-/// them are the card's.
+/// Runs of the view with the readings on the card, and the card's other runs, so that means agree with the card.
 std::vector<SeenRun> runs_drawn(const CardTest& test, const TestView& view) {
   std::vector<SeenRun> runs = view.runs;
   for (const auto& known : test.baseline.runs) {
@@ -138,7 +137,7 @@ std::vector<SeenRun> runs_drawn(const CardTest& test, const TestView& view) {
   return runs;
 }
 
-/// What the film shows, and whether it is the same run as the card's.
+/// Run shown by the film, and whether it is identical to the card's.
 ordered_json run_shown(const CardTest& test, const TestView& view) {
   if (view.runs.empty()) return {};
   const SeenRun& shown = view.runs.front();
@@ -218,7 +217,7 @@ ordered_json page_inference(const Inference& inference) {
   return out;
 }
 
-/// What the laboratory measured, by the names of readings, those of a test with a name as "name/reading".
+/// Measurements by name of the reading, "name/reading" for tests with a name.
 ordered_json measured_in(const Study& study) {
   auto out = ordered_json::object();
   for (const StudyTest& test : study.tests)
@@ -227,8 +226,7 @@ ordered_json measured_in(const Study& study) {
   return out;
 }
 
-/// What the laboratory measured of what a test leaves behind, by the names of the tests: the lengths of the last
-/// drawing that has some.
+/// Measured lengths by name of the test: those of the last drawing that has any.
 ordered_json lengths_measured_in(const Study& study) {
   auto out = ordered_json::object();
   for (const StudyTest& test : study.tests)

@@ -9,29 +9,27 @@
 
 namespace pastefit {
 
-/// All that the page says, but the grains of its films (`CodedRecording`), as the page's program reads it
-/// (calibrate/report/page/content.js). What findings lack is null or empty; `missing` says why.
-/// `command`: what makes the page again, for people.
+/// Content of the page without the films' grains (`CodedRecording`), in the format of calibrate/report/page/content.js.
+/// Missing findings are null or empty; `missing` gives the reasons. `command`: shell command that recreates the page.
 nlohmann::ordered_json page_content(const Findings& findings, const std::string& command);
 
-/// Every stored simulation in the order of arrival, for a drawing:
+/// Every stored simulation in order of arrival, for a drawing:
 ///     {"number", "test", "packing", "values": {...}, "readings": {...}, "misfit", "failure", "ended_early",
 ///      "sketch", "confirmation", "other_grains"}.
-/// values: of the free parameters, or of all that are not default if the study is not known. misfit: largest difference
-/// of a fitted reading over its tolerance, in the unit of people (`ErrorUnit`); left out if it is not known, as are
-/// all that are false. censored: it was worse than that. other_grains: of coarse grains, or of other tests than
-/// the study's; its misfit is not said.
+/// values: of the free parameters; without a study, of all that are not default. misfit: largest difference of a fitted
+/// reading over its tolerance, in display units (`ErrorUnit`); omitted if unknown. Members that are false are omitted.
+/// censored: lower bound of the misfit. other_grains: coarse grains, or tests outside the study; without misfit.
 nlohmann::ordered_json search_history(const Findings& findings);
 
-/// The misfit of predicted readings over the two parameters that matter most, the others as recommended:
+/// Misfit of predicted readings over the two most important parameters, with the others as recommended:
 ///     {"x", "y", "level", "points", "miss": [row by row], "equivalent": [[x, y], ...], "simulated": [[x, y], ...]};
 /// x and y: {"name", "lower", "upper", "scale"}; miss: root of the sum of squares, each in standard deviations of one
-/// measurement. Null if there is no inference, or only one parameter is free.
+/// measurement. Null without inference, or with only one free parameter.
 nlohmann::ordered_json misfit_map(const Findings& findings);
 
-/// The force between two grains of the card's size against their overlap, as the engine computes it: the fitted law,
-/// those of the equivalent materials, and the other attractions with the same force at touch and rupture gap.
-/// [{"name", "role": "fitted" | "equivalent" | "other", "points": [[overlap_um, force_mn], ...]}], attraction negative.
+/// Force between two grains of the card's size over their overlap, computed by the engine: the fitted law, those of the
+/// equivalent materials, and the other attractions with the same force at touch and rupture gap. [{"name", "role":
+/// "fitted" | "equivalent" | "other", "points": [[overlap_um, force_mn], ...]}], attraction negative.
 nlohmann::ordered_json law_curves(const Card& card, const std::optional<Inference>& inference);
 
 }  // namespace pastefit

@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 
 constexpr double kQuantum = 5e-5;  // [m]
 
-/// The box that holds all centres, and the length that one step of 16 bits is.
+/// Bounding box of all centres, and the length of one 16-bit step.
 struct Box {
   std::array<double, 3> low{};
   double quantum = kQuantum;
@@ -62,7 +62,7 @@ void append_bytes(std::string& bytes, const std::vector<std::uint16_t>& numbers)
   for (const auto number : numbers) bytes += static_cast<char>(number >> 8);
 }
 
-/// What of a part is coded as change from the frame before.
+/// Columns that are coded as differences from the frame before.
 struct CodedColumns {
   std::array<std::vector<std::uint16_t>, 3> places;
   std::vector<std::uint8_t> speeds, touching, pulls;

@@ -6,21 +6,21 @@
 
 namespace pastefit {
 
-/// A film as a page holds it; empty without pictures.
+/// Film as embedded in a page; empty without pictures.
 struct CodedRecording {
-  /// What a page needs to know of it before it reads the grains, as JSON:
+  /// Index, as JSON:
   ///     {"quantum_m", "low_m": [x, y, z], "most_pull_n", "reels": [{"grains", "frames": [{"time_s", "phase", "walls":
   ///     [...]}]}]};
-  /// "walls" is left out where they stand as in the frame before.
+  /// "walls" is omitted if unchanged since the frame before.
   std::string index;
-  /// Its grains, deflated (zlib) and in base64. Before that, for each part:
+  /// Grains, deflated (zlib), in base64. For each part:
   ///     radii        16 bits a grain, in quanta;
   ///     each frame   x, y and z of all grains, 16 bits each, in quanta from `low_m`; then their speeds, 8 bits:
-  ///                  51 (log10(v in m/s) + 4), 0 to 255; then what they touch, 8 bits; then what is pulled on them,
-  ///                  255 times the share of most_pull_n, the largest pull in the film.
-  /// Numbers of 16 bits stand as all their low bytes, then all their high ones. A frame that is not the first of its
-  /// part holds the differences from the one before, modulo 2^16 or 2^8.
-  /// A quantum is 0.05 mm, or more if the film is wider than 16 bits of that.
+  ///                  51 (log10(v in m/s) + 4), 0 to 255; then their coordination, 8 bits; then their tension, 255
+  ///                  times the share of most_pull_n, the largest tension in the film.
+  /// 16-bit numbers are stored as all low bytes, then all high bytes. Frames other than the first of a part contain
+  /// differences from the one before, modulo 2^16 or 2^8. The quantum is 0.05 mm, or more if the film is too wide for
+  /// 16 bits.
   std::string grains;
 
   bool empty() const { return grains.empty(); }

@@ -39,13 +39,13 @@ RecordedFrame frame_of(const World& world) {
   return frame;
 }
 
-/// How many pictures of so many grains a page can hold.
+/// Number of pictures of so many grains that a page can contain.
 double pictures_for(std::size_t grains) {
   constexpr double kMost = 140, kLeast = 36, kGrainsInAll = 260'000;
   return std::clamp(kGrainsInAll / static_cast<double>(std::max<std::size_t>(grains, 1)), kLeast, kMost);
 }
 
-/// The pictures of a part at least `interval_s` apart, and its last one.
+/// Keeps pictures at least `interval_s` apart, and the last one.
 void thin(RecordingPart& part, double interval_s) {
   double next_s = -std::numeric_limits<double>::infinity();
   std::vector<RecordedFrame> kept;
@@ -58,7 +58,7 @@ void thin(RecordingPart& part, double interval_s) {
   part.frames = std::move(kept);
 }
 
-/// By more than a person sees: what fits a column into its mould does not count.
+/// True for visible growth; the adjustment of a column to its mould is smaller.
 bool have_grown(const RecordingPart& part, const Particles& grains) {
   constexpr double kSeen = 0.03;
   const double before = part.radii_m[static_cast<std::size_t>(grains.identity[0])];
@@ -69,7 +69,7 @@ std::string key_of_test(const Test& test) {
   return evaluation_key("", test);
 }
 
-/// Of the test with this material, whatever the packing.
+/// Key of the test with this material, independent of the packing.
 std::string name_of_material(Test test) {
   specimen_of(test).packing_seed = 0;
   return key_of_test(test);
@@ -97,7 +97,7 @@ void RunRecorder::add(const Snapshot& snapshot) {
                       film_.parts.back().radii_m.size() != grains;
   if (others) {
     begun_s_ = film_.parts.empty() ? 0 : film_.parts.back().frames.back().time_s;
-    first_s_ = snapshot.drop > 0 ? snapshot.time_s : 0;  // the drop goes on with the clock of the heap
+    first_s_ = snapshot.drop > 0 ? snapshot.time_s : 0;  // a further drop continues the heap's clock
   }
   if (others || have_grown(film_.parts.back(), world.particles)) {
     RecordingPart part;

@@ -19,9 +19,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int kMapPoints = 41;  // evenly along either side, besides that of the recommended material
+constexpr int kMapPoints = 41;  // equally spaced on each axis, without the recommended material
 
-/// The test of the study that an evaluation is of; nothing if it is of none, as those with coarse grains are.
+/// Index of the evaluation's test in the study; nothing if it has none, e.g. with coarse grains.
 std::optional<std::size_t> asked_test(const Study& study, const std::string& program,
                                       const StoredEvaluation& evaluation) {
   for (std::size_t i = 0; i < study.tests.size(); ++i) {
@@ -33,7 +33,7 @@ std::optional<std::size_t> asked_test(const Study& study, const std::string& pro
   return std::nullopt;
 }
 
-/// Largest difference of a fitted reading over its tolerance; nothing if none was taken.
+/// Largest difference of a fitted reading over its tolerance; nothing without readings.
 std::optional<double> error_of(const Study& study, std::size_t index, const Readings& readings) {
   const StudyTest& test = study.tests[index];
   std::optional<double> largest;
@@ -53,7 +53,7 @@ ordered_json numbers_of(const Readings& readings) {
   return out;
 }
 
-/// Values of those parameters that are told, by name.
+/// Values of the reported parameters by name.
 ordered_json values_told(const Findings& findings, const StoredEvaluation& evaluation) {
   auto out = ordered_json::object();
   const auto kinds = parameter_kinds();
@@ -65,7 +65,7 @@ ordered_json values_told(const Findings& findings, const StoredEvaluation& evalu
   return out;
 }
 
-/// The test that an evaluation is of, how far off it is, and whether it confirmed the card.
+/// Adds the evaluation's test, its misfit, and whether it confirmed the card.
 void judge(const Findings& findings, const StoredEvaluation& evaluation, ordered_json& point) {
   const Study& study = *findings.study;
   const auto index = asked_test(study, findings.program, evaluation);
@@ -82,8 +82,8 @@ void judge(const Findings& findings, const StoredEvaluation& evaluation, ordered
   if (confirming && evaluation.values == values_of(findings.card->material)) point["confirmation"] = true;
 }
 
-/// The two coordinates that the readings see best, as places among the free parameters: the leads of the best
-/// determined combination and of the first one with another lead.
+/// Indices of the two free parameters that the readings determine best: leads of the best determined combination and of
+/// the next one with another lead.
 std::array<std::size_t, 2> directions_that_matter(const Inference& inference) {
   const std::size_t first = inference.combinations.front().lead;
   for (const Combination& combination : inference.combinations)
@@ -91,8 +91,8 @@ std::array<std::size_t, 2> directions_that_matter(const Inference& inference) {
   return {first, first == 0 ? std::size_t{1} : std::size_t{0}};
 }
 
-/// Places along a coordinate of the unit cube. That of the recommended material is one of them: between two places it
-/// would stand in the field of a neighbour, which is beyond the laboratory's reach where the dependence is steep.
+/// Grid along a coordinate of the unit cube, including the recommended material. Otherwise it would be drawn in a
+/// neighbouring cell, which may be out of reach where the dependence is steep.
 std::vector<double> map_places(double recommended) {
   std::vector<double> out;
   for (int k = 0; k < kMapPoints; ++k) out.push_back(k / (kMapPoints - 1.0));

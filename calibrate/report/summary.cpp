@@ -54,7 +54,7 @@ std::string reading_lines(const Card& card) {
   return out;
 }
 
-/// How the yield stresses that simulated readings say compare with the one that the laboratory measured.
+/// Yield stresses from simulated readings, compared with the measured one.
 std::string measured_yield_stress_lines(const CardTest& test, const std::vector<ComparedYieldStress>& compared) {
   if (!test.yield_stress) return "";
   std::string out = format("  %-24s %10.4g %10.3g %10s Pa  measured\n", reading_name(test, "yield_stress_pa").c_str(),
@@ -65,7 +65,7 @@ std::string measured_yield_stress_lines(const CardTest& test, const std::vector<
   return out;
 }
 
-/// What measured and simulated readings say of the material as a fluid with a yield stress.
+/// Yield stresses from measured and simulated readings.
 std::string yield_stress_lines(const Card& card) {
   std::string out;
   for (const CardTest& test : card.tests) {
@@ -91,7 +91,7 @@ std::string hold_out_lines(const Card& card) {
   return out;
 }
 
-/// What a person should know of the laboratory's readings taken together.
+/// Notes on the measurements taken together.
 std::string remark_lines(const Card& card) {
   std::string out;
   for (const auto& test : card.tests) {
@@ -103,7 +103,7 @@ std::string remark_lines(const Card& card) {
   return out;
 }
 
-/// What the laboratory measured and the search did not look at, with how far it is off.
+/// Measurements that were not fitted, with their differences.
 std::string unfitted_words(const Card& card) {
   std::string out;
   for (const auto& test : card.tests)

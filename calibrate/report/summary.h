@@ -7,31 +7,30 @@
 
 namespace pastefit {
 
-/// The card as a person reads it: the fitted numbers in SI and scale-free, measured against simulated, how the search
-/// went, and one sentence whether the material meets the laboratory. `findings`: what the data say of the parameters
-/// (`calibrate/inference/description.h`), as whole lines; may be empty.
+/// Summary of a card: fitted parameters in SI and scale-free, measured against simulated readings, course of the
+/// search, and the verdict. `findings`: text on the parameters (`calibrate/inference/description.h`), in whole lines;
+/// may be empty.
 std::string summary_of(const Card& card, const std::string& findings = {});
 
-/// That sentence.
+/// Sentence whether the material meets the measurements.
 std::string verdict_of(const Card& card);
 
-/// All a card says, for a person: the summary, what the readings leave open, the conditions it was fitted in, where it
-/// comes from, its baseline, what was done to it since, and what other engines make of it.
+/// Complete text of a card: summary, undetermined parameters, conditions of the fit, provenance, baseline, changes
+/// since then, and results of other engines.
 std::string text_of(const Card& card);
 
-/// What another engine made of a test of the card: what it cost, the bias of each reading, and the verdict.
+/// Result of another engine for a test of the card: cost, bias of each reading, and verdict.
 std::string further_confirmation_text(const FurtherConfirmation& confirmation);
 
-/// What the laboratory measured in a test, in the order of its readings.
+/// Measurements of a test, in the order of its readings.
 std::vector<Measurement> laboratory_measurements(const CardTest& test);
 
-/// What a person should know of the runs of a test (`laboratory/test.h`); empty: nothing.
+/// Remarks on the runs of a test (`laboratory/test.h`); may be empty.
 std::string remarks_on(const CardTest& test);
 
-/// What speaks against a card although its readings may be within their tolerances, a clause each, the gravest first:
-/// heaps that sheared off and whatever else a kind of test remarks on its runs; readings that are within their
-/// tolerance only without their standard error; parameters that ended at a bound, or beyond what is plausible. Empty:
-/// nothing.
+/// Reservations about a card whose readings may be within their tolerances, one clause each, the most serious first:
+/// sheared-off heaps and other remarks on the runs; readings within their tolerance only without their standard error;
+/// parameters at a bound, or outside the plausible range. May be empty.
 std::vector<std::string> reservations_on(const Card& card);
 
 }  // namespace pastefit

@@ -29,7 +29,7 @@ std::string name_for_people(NormalLaw law) {
   }
 }
 
-/// With the types of Ai et al. (Powder Technology 206 (2011) 269) and the short names that manuals use.
+/// With the types of Ai et al. (Powder Technology 206 (2011) 269) and the abbreviations of manuals.
 std::string name_for_people(RollingModel model) {
   return model == RollingModel::constant_torque ? "constant torque (CDT, type A)" : "spring-dashpot (EPSD, type C)";
 }
@@ -54,7 +54,7 @@ TypeInGroup grains_to_type(const Material& material) {
   return group;
 }
 
-/// The longest step of the card's export, for the smallest of the grains.
+/// Longest time step of the card's export, for the smallest grains.
 double longest_step_s(const Card& card, const Test& test) {
   ExportScene scene;
   scene.test = test;

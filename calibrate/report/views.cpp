@@ -94,7 +94,7 @@ json json_of_run(const SeenRun& run) {
   return out;
 }
 
-/// Within the bounds of what a table holds: it is drawn point by point.
+/// Limits the length of an outline, which is drawn point by point.
 Outline outline_of(const json& in) {
   constexpr double kFar = 10;  // [m]
   Outline out{in.at("first_x_m").get<double>(), in.at("spacing_m").get<double>(),
@@ -120,7 +120,7 @@ SeenRun run_of(const json& in) {
   return out;
 }
 
-/// Of base64 alone: in a page the film stands in an element of its own, as it is.
+/// Accepts base64 only: the film is inserted into the page unescaped.
 std::string grains_of(const json& in) {
   auto grains = in.get<std::string>();
   constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=";
@@ -137,7 +137,7 @@ TestView view_in(const json& in, const std::string& program) {
   return view;
 }
 
-/// Takes the checksum out of the document and compares it with that of the rest.
+/// Removes the checksum from the document and compares it with that of the rest.
 bool take_checksum(json& document) {
   if (!document.is_object() || !document.contains("checksum")) return false;
   const json told = document.at("checksum");

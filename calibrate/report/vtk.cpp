@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the files say LittleEndian");
 
-/// A DataArray element: the number of bytes (UInt64) and the bytes, encoded as one.
+/// DataArray element: number of bytes (UInt64) and data, encoded together.
 std::string data_array(const std::string& name, const char* type, int components, std::span<const std::byte> values) {
   const std::uint64_t size = values.size();
   std::string bytes(sizeof size + size, '\0');

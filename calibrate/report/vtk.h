@@ -13,39 +13,39 @@ namespace pastefit {
 
 class World;
 
-/// Numbers of one kind at points or cells of a frame.
+/// Data array on the points or cells of a frame.
 struct VtkColumn {
   std::string name;
   std::variant<std::vector<double>, std::vector<Vec3>, std::vector<std::int32_t>> values;
 };
 
-/// What is shown of one moment: cells of equally many corners each.
+/// Data of one time; all cells have the same number of corners.
 struct VtkFrame {
   std::string cells;  ///< "Verts", "Lines" or "Polys"
   std::int64_t corners = 1;
   std::vector<Vec3> points_m = {};
-  std::vector<std::int64_t> connectivity = {};  ///< the cells' corners by their places among the points
+  std::vector<std::int64_t> connectivity = {};  ///< point indices of the cells' corners
   std::string data_of;                          ///< "PointData" or "CellData"
   std::vector<VtkColumn> data = {};
 };
 
-/// Grains, one vertex each: "radius", "velocity", "spin", "coordination", the grains that it touches.
+/// Grains as vertices, with "radius", "velocity", "spin" and "coordination", the number of touched grains.
 VtkFrame grain_frame(const World& world);
 
-/// Contacts and bridges between grains, from one centre to the other: "touching", 1, or 0 for a bridge across a gap;
-/// "overlap", negative for a gap; "force" of the laws along the normal, repulsion positive, without dampers.
+/// Contacts and bridges as lines between centres, with "touching", 1, or 0 for a bridge across a gap; "overlap",
+/// negative for a gap; "force", normal force of the laws, repulsion positive, without dampers.
 VtkFrame link_frame(const World& world);
 
-/// Walls as polygons: what is round has 72 sides, of an infinite plane the square about the grains is shown. "wall": of
-/// which wall each is, from 0.
+/// Walls as polygons: 72 sides for round walls, a square around the grains for infinite planes. "wall": index of the
+/// wall, from 0.
 VtkFrame wall_frame(const World& world);
 
-/// A frame as a ParaView file (VTK XML PolyData), numbers in binary (base64). Source of the format: VTK User's Guide,
-/// chapter on file formats.
+/// Frame as a ParaView file (VTK XML PolyData) with binary data (base64). Source: VTK User's Guide, chapter on file
+/// formats.
 std::string vtp_of(const VtkFrame& frame);
 
-/// A series of frames in a folder: NAME_000000.vtp, NAME_000001.vtp, ... and NAME.pvd, which lists them with their
-/// times and is complete after every frame.
+/// Series of frames in a folder: NAME_000000.vtp, NAME_000001.vtp, ... and NAME.pvd, which lists them with their times
+/// and is valid after every frame.
 class VtkSeries {
  public:
   VtkSeries(std::filesystem::path folder, std::string name);

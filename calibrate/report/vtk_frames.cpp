@@ -12,9 +12,9 @@ namespace pastefit {
 
 namespace {
 
-constexpr int kSides = 72;  // of what is round
+constexpr int kSides = 72;  // of round walls
 
-/// How far from the axis grains lie: what is shown of an infinite plane.
+/// Largest distance of grains from the axis: visible part of an infinite plane.
 double extent_of(const Particles& grains) {
   double reach = 0;
   for (std::int32_t i = 0; i < grains.count(); ++i) {
@@ -25,7 +25,7 @@ double extent_of(const Particles& grains) {
   return 1.2 * reach;
 }
 
-/// Adds walls to a frame, one after the other.
+/// Appends walls to a frame.
 class WallDraftsman {
  public:
   explicit WallDraftsman(double reach) : reach_(reach) {}
@@ -75,7 +75,7 @@ class WallDraftsman {
                       corner_at(side, shell.top_radius, shell.height)});
   }
 
-  /// The bars that lie among the grains: the two sides and the crest of each.
+  /// Draws the ribs within the grains: two sides and the crest of each.
   void add(const Ribs& ribs) {
     const Vec3 across{0, reach_, 0}, up{0, 0, ribs.height / 2}, half{ribs.thickness / 2, 0, 0};
     const auto first = static_cast<int>(std::ceil((-reach_ - ribs.base.x) / ribs.pitch));
