@@ -22,7 +22,7 @@ bool write_all(int descriptor, std::string_view content) {
   return true;
 }
 
-/// A rename is on the disk only when its folder is.
+/// A rename is durable only after syncing the folder.
 void sync_folder(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -35,8 +35,8 @@ Faults unwritable(const std::filesystem::path& file, int error) {
            "a folder that can be written, on a disk with free space"}};
 }
 
-/// A new file beside this one. Somebody else may have put a link or a file of their own where it would be: such a name
-/// is passed over, and never followed or overwritten.
+/// Creates a new file beside this one. Names that already exist, possibly links of another user, are skipped, never
+/// followed or overwritten.
 int open_beside(const std::filesystem::path& file, std::filesystem::path& beside) {
   constexpr int most_names = 100;
   const std::string begin = file.string() + "." + std::to_string(::getpid());
@@ -109,7 +109,7 @@ FileLock::FileLock(const std::filesystem::path& file) {
     descriptor_ = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (descriptor_ < 0) return;
     ::flock(descriptor_, LOCK_EX);
-    // Whoever held it may have put another file in its place.
+    // The previous holder may have replaced the file.
     struct stat held {
     }, there{};
     const bool same = ::fstat(descriptor_, &held) == 0 && ::stat(file.c_str(), &there) == 0 &&

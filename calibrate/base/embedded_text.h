@@ -8,13 +8,13 @@
 
 namespace pastefit {
 
-/// A text file of these sources that became part of the program (calibrate/embedded_texts.cmake), by its path in
-/// calibrate: "laboratory/templates/lab.json". Nothing if there is none.
+/// Source text embedded in the program (calibrate/embedded_texts.cmake), by its path in calibrate:
+/// "laboratory/templates/lab.json". Nothing if there is none.
 std::optional<std::string_view> embedded_text(std::string_view file);
 
-/// The embedded text with the value of each name in the place of @name@. Of a value that ends with a line break, or is
-/// empty and alone on its line, the break behind it goes. A file or a name that there is not is a mistake in the
-/// program, std::logic_error.
+/// The embedded text with @name@ replaced by values. The line break after a value is dropped if the value ends with
+/// one, or is empty and alone on its line. Throws std::logic_error for an unknown file, std::out_of_range for an
+/// unknown name.
 inline std::string filled_in(std::string_view file, const std::map<std::string_view, std::string>& values) {
   const auto found = embedded_text(file);
   if (!found) throw std::logic_error("no text is embedded as " + std::string(file));

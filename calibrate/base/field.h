@@ -3,27 +3,28 @@
 #include <concepts>
 #include <string_view>
 
-// What is said of a field of a file beside its name and its variable. Knows nothing of JSON: the style for LAMMPS reads
-// the laws by the same descriptions (data/lammps/README.md).
+// Properties of a field in a file, other than its variable. Independent of JSON: the LAMMPS style reads the laws by the
+// same descriptions (data/lammps/README.md).
 
 namespace pastefit {
 
-/// No quantity of a file is larger: squares and products of a few of them stay finite.
+/// Largest value of a quantity in a file, so that products of a few quantities stay finite.
 inline constexpr double largest_quantity = 1e15;
 
-/// The admissible values of a number, in the unit of its key.
+/// Admissible values of a number, in the unit of its key.
 struct Range {
   double smallest = -largest_quantity;
   double largest = largest_quantity;
-  bool open = false;          ///< `smallest` itself is refused
-  bool judged_later = false;  ///< by the `validate` of what is read; the schema says it, the reader takes any number
+  bool open = false;          ///< excludes `smallest`
+  bool judged_later = false;  ///< checked by `validate` of the whole; the schema has the range, the reader ignores it
 };
 
-/// A key of an object, with what stands there in words for people, which its schema tells.
+/// Key of an object, with its meaning for its schema.
 struct Key {
   std::string_view name;
   std::string_view meaning = {};
-  std::string_view schema = {};  ///< that has the admissible words, "laws.schema.json#/properties/normal"; empty: this
+  std::string_view schema =
+      {};  ///< schema of the admissible words, "laws.schema.json#/properties/normal"; empty: inline
 
   template <class Name>
   requires std::convertible_to<const Name&, std::string_view> Key(const Name& key, std::string_view in_words = {},
@@ -32,11 +33,10 @@ struct Key {
   operator std::string_view() const { return name; }
 };
 
-/// Whether an object must have the key.
+/// Presence of a key in an object.
 enum class Need { required, optional };
 
-/// In the place of `Need`: an optional key that is left out where its value is the default one, which the variable has
-/// before it is read.
+/// Alternative to `Need`: an optional key that is omitted for the default value, which the variable has before reading.
 template <class T>
 struct Default {
   T value;
@@ -44,17 +44,17 @@ struct Default {
 template <class T>
 Default(T) -> Default<T>;
 
-/// In the place of `Need`: a key that comes with something else; required and written only if that is there.
+/// Alternative to `Need`: a key that is required and written only together with something else.
 struct With {
   bool there;
 };
 
-/// In the place of `Need`: an optional key that is written only if this holds.
+/// Alternative to `Need`: an optional key that is written only if `holds`.
 struct WrittenIf {
   bool holds;
 };
 
-/// What a reader makes of any of these.
+/// Conversion of all these to `Need`, for a reader.
 class Presence {
  public:
   Presence(Need need) : need_(need) {}
@@ -68,7 +68,7 @@ class Presence {
   Need need_ = Need::optional;
 };
 
-/// A word of a file and the value it stands for.
+/// Word in a file, and its value.
 template <class T>
 struct Named {
   std::string_view name;

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What to give in place of a folder: its files of this ending, the first few by name.
+/// Advice for a folder: the first few of its files with this ending.
 std::string file_in(const fs::path& folder, std::string_view ending) {
   constexpr std::size_t most = 3;
   std::set<std::string> names;
@@ -31,7 +31,7 @@ std::string file_in(const fs::path& folder, std::string_view ending) {
   return list.empty() ? "give a file" : "give a file of it: " + list;
 }
 
-/// The bytes in UTF-8; nothing if they are not in this encoding.
+/// Converts bytes to UTF-8; nothing if the encoding does not match.
 std::optional<std::string> converted(std::string_view bytes, const char* from) {
   const iconv_t converter = iconv_open("UTF-8", from);
   if (std::bit_cast<std::intptr_t>(converter) == -1) return std::nullopt;

@@ -14,7 +14,7 @@ namespace pastefit {
 namespace {
 
 using nlohmann::json;
-constexpr std::size_t deepest_nesting = 32;  // our files need 4; the bound keeps recursive writers safe
+constexpr std::size_t deepest_nesting = 32;  // pastefit's files need 4; the limit protects recursive writers
 
 std::string line_and_column(std::string_view text, std::size_t bytes_read) {
   const std::string_view read = text.substr(0, bytes_read);
@@ -24,18 +24,18 @@ std::string line_and_column(std::string_view text, std::size_t bytes_read) {
   return "line " + std::to_string(line) + ", column " + std::to_string(std::max<std::size_t>(column, 1));
 }
 
-/// The parser's own words, without its error number and place.
+/// The parser's message without error number and position.
 std::string complaint(const json::exception& error) {
   std::string text = error.what();
   text.erase(0, text.find("] ") + 2);
   if (const std::size_t column = text.find(", column "); column != std::string::npos)
     text.erase(0, text.find(": ", column) + 2);
-  // The parser shows control characters as <U+001B>, but bytes that are no text as they are.
+  // The parser escapes control characters, but copies invalid bytes.
   std::erase_if(text, [](unsigned char byte) { return byte >= 0x80; });
   return text;
 }
 
-/// A character of word processors and other encodings in place of one that JSON has: what it is, and what to do.
+/// Character of word processors or other encodings in place of a JSON one, with explanation and remedy.
 struct ForeignCharacter {
   std::string_view bytes, what, remedy;
 };
@@ -54,7 +54,7 @@ constexpr std::array<ForeignCharacter, 9> foreign_characters{{
 
 constexpr std::string_view save_as_utf8 = "save the file as UTF-8 (Notepad: Save as, Encoding: UTF-8)";
 
-/// The fault of a text in UTF-16, which has a null byte beside every letter.
+/// Fault of a text in UTF-16, with a null byte beside every letter.
 std::optional<Fault> utf_16(std::string_view text) {
   const bool marked = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
   const bool brace = text.starts_with(std::string_view("{\0", 2)) || text.starts_with(std::string_view("\0{", 2));
@@ -62,7 +62,7 @@ std::optional<Fault> utf_16(std::string_view text) {
   return Fault{"", "is in the encoding UTF-16", std::string(save_as_utf8)};
 }
 
-/// The fault of a workbook, or of a table: two lines with separators that begin like no JSON.
+/// Fault of a workbook, or of a table: two lines with separators and no JSON beginning.
 std::optional<Fault> spreadsheet(std::string_view bytes, const std::filesystem::path& file) {
   const std::string rows = " makes a study of each of its rows";
   if (bytes.starts_with("PK"))
@@ -77,7 +77,7 @@ std::optional<Fault> spreadsheet(std::string_view bytes, const std::filesystem::
   return std::nullopt;
 }
 
-/// Why the parser stopped after so many bytes, in the words of who typed the text; nothing if the parser knows best.
+/// Explanation of a parser error after `bytes_read` bytes; nothing if the parser's message is better.
 std::optional<std::pair<std::string, std::string>> typed_there(std::string_view text, std::size_t bytes_read) {
   const std::size_t last = std::min(bytes_read, text.size());
   for (std::size_t at = last - std::min<std::size_t>(last, 3); at < last; ++at)
@@ -98,7 +98,7 @@ std::optional<std::pair<std::string, std::string>> typed_there(std::string_view 
   return std::nullopt;
 }
 
-/// First pass over the text: is it JSON, and does a key stand twice? (The document type keeps the last one silently.)
+/// First pass: checks syntax and duplicate keys. (The document type silently keeps the last one.)
 class SyntaxCheck final : public nlohmann::json_sax<json> {
  public:
   SyntaxCheck(std::string_view text, Faults& faults) : text_(text), faults_(faults) {}
@@ -183,7 +183,7 @@ std::optional<json> parse_json(std::string_view text, Faults& faults) {
     faults.push_back(std::move(*foreign));
     return std::nullopt;
   }
-  // The parser takes a null byte for the end.
+  // The parser treats a null byte as the end.
   if (const auto null = text.find('\0'); null != std::string_view::npos) {
     faults.push_back({line_and_column(text, null + 1), "not JSON: a null byte", "correct the text there"});
     return std::nullopt;

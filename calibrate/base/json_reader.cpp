@@ -21,7 +21,7 @@ std::string listed(const Words& words) {
   return list;
 }
 
-/// What to write in place of a key that is known in another unit; empty if there is none.
+/// Advice for a key that is known in another unit; may be empty.
 std::string in_unit_of_files(std::string_view key, const Words& known) {
   const std::optional<Unit> unit = unit_of_key(key);
   if (!unit) return "";
@@ -39,7 +39,7 @@ std::string in_unit_of_files(std::string_view key, const Words& known) {
          " " + own;
 }
 
-/// What to write in place of a text that holds a number, with a decimal comma or a unit; empty if it holds none.
+/// Advice for a text that contains a number, with a decimal comma or a unit; may be empty.
 std::string as_number(const json& value, const std::optional<Unit>& unit) {
   const std::string* text = value.get_ptr<const std::string*>();
   const std::optional<WrittenNumber> written = text ? written_number(*text) : std::nullopt;
@@ -49,7 +49,7 @@ std::string as_number(const json& value, const std::optional<Unit>& unit) {
          " without quotes";
 }
 
-/// The numbers that a list was meant to hold, if decimal commas made two of each: [162,5, 165,0] is 162.5 and 165.0.
+/// List with numbers split by decimal commas joined again: [162,5, 165,0] becomes 162.5 and 165.0.
 std::string without_decimal_commas(const json& list, std::size_t wanted) {
   const bool whole = std::ranges::all_of(list, [](const json& entry) { return entry.is_number_integer(); });
   if (!whole || list.empty() || list.size() % 2 != 0 || (wanted > 0 && list.size() != 2 * wanted)) return "";
@@ -64,7 +64,7 @@ std::string without_decimal_commas(const json& list, std::size_t wanted) {
     fraction = std::max(fraction, after);
     out += (out.empty() ? "[" : ", ") + list[i].dump() + "." + list[i + 1].dump();
   }
-  // Where the number of entries does not tell, only large and small numbers by turns do.
+  // Without a known number of entries, alternating large and small numbers are the evidence.
   const bool by_turns = fraction < smallest / 2 && largest - smallest < (smallest - fraction) / 2;
   return wanted > 0 || by_turns ? out + "]" : "";
 }
@@ -236,7 +236,7 @@ bool ObjectReader::pairs(const Key& key, std::vector<std::array<double, 2>>& tar
     }
     const bool one = check_number(place(key) + entry + "[0]", pair[0], first);
     const bool other = check_number(place(key) + entry + "[1]", pair[1], second);
-    const bool both = one && other;  // the faults of both are told
+    const bool both = one && other;  // reports the faults of both
     good = good && both;
     if (!both) continue;
     read.push_back(pair.get<std::array<double, 2>>());

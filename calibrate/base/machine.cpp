@@ -29,7 +29,7 @@ std::string machine_type() {
 int processors() {
   cpu_set_t allowed;
   if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return std::max(1, CPU_COUNT(&allowed));
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));  // more than the set has room for
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));  // too many for `cpu_set_t`
 }
 
 double memory_available_bytes() {
@@ -43,7 +43,7 @@ double memory_available_bytes() {
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // [bytes]; blocks below it are not mapped one by one
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // [bytes]; smaller blocks are not mapped individually
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
 }
@@ -52,8 +52,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// `share/pastefit` beside one of the folders that the file of this code lies in: where that is a shared library, as
-/// for Python, its program is somebody else's.
+/// `share/pastefit` beside a parent folder of this code's file: in a shared library, e.g. for Python, the program is a
+/// foreign one.
 std::vector<fs::path> beside_this_code() {
   std::vector<fs::path> found;
   Dl_info code;

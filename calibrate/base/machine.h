@@ -7,18 +7,18 @@
 
 namespace pastefit {
 
-/// What of the machine the bits of a simulation may depend on, besides the program: processor family, whether the C
-/// library may use its fused multiply-add functions there, and that library's version, e.g. "x86_64 fma glibc 2.36"
-/// (core/README.md, Determinism).
+/// Properties of the machine that may change the bits of a simulation: processor family, availability of fused
+/// multiply-add functions to the C library, and that library's version, e.g. "x86_64 fma glibc 2.36" (core/README.md,
+/// Determinism).
 std::string machine_type();
 
-/// Processors of this machine that the program may use, at least 1.
+/// Processors available to the program, at least 1.
 int processors();
 
-/// Memory that programs may still take [bytes]; infinite where the system does not say.
+/// Memory available to programs [bytes]; infinite if unknown.
 double memory_available_bytes();
 
-/// Time that processors have worked [s], by POSIX's clock of the calling thread or of the whole process.
+/// Processor time [s], by POSIX clock, of the calling thread or of the process.
 inline double processor_seconds(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);
@@ -28,15 +28,14 @@ inline double thread_seconds() {
   return processor_seconds(CLOCK_THREAD_CPUTIME_ID);
 }
 
-/// Keeps memory that was given up in the process, so that lists made anew hundreds of times a second need not ask the
-/// system for it, page by page: 5 to 10 % of a flowing slump. To be called once, at the beginning of a program.
-/// Limits: with the GNU C library; elsewhere nothing happens.
+/// Keeps freed memory in the process, which avoids system calls for lists that are rebuilt hundreds of times a second:
+/// 5 to 10 % of a flowing slump. Call this once, at the start. Limits: GNU C library only; no effect elsewhere.
 void keep_freed_memory();
 
-/// Where the program's data may be (apparatus, cases, the style for LAMMPS), the first that counts first: the folder
-/// that the environment variable PASTEFIT_DATA_DIR names; `share/pastefit` beside the program's own folder, so that an
-/// installed tree may be moved, or beside a folder above that of the shared library this is in; the sources' (not in
-/// packages); the folder that was configured. None of them need be there.
+/// Search path of the program's data (apparatus, cases, LAMMPS style), in order: the environment variable
+/// PASTEFIT_DATA_DIR; `share/pastefit` beside the program's folder, so that an installed tree can be moved, or beside a
+/// parent folder of the shared library that contains this code; the source tree (not in packages); the configured
+/// folder. They need not exist.
 std::vector<std::filesystem::path> data_folders();
 
 }  // namespace pastefit

@@ -13,13 +13,13 @@
 
 namespace pastefit {
 
-/// Makes the JSON schema (draft 7) of what an `ObjectReader` reads, from the same calls. The values given are those of
-/// any object of the kind.
+/// Generates the JSON schema (draft 7) of what an `ObjectReader` reads, by the same calls. Values of arguments are
+/// ignored, as any object of the kind will do.
 class ObjectSchema {
  public:
   using Json = nlohmann::ordered_json;
   static constexpr bool reads = false;
-  /// `object` becomes the schema; objects that are `shared` go to `definitions`.
+  /// `object` becomes the schema; `shared` objects go to `definitions`.
   ObjectSchema(Json& object, Json& definitions);
 
   void number(const Key& key, double, const Range& range, Presence presence, double = 1) {
@@ -39,7 +39,7 @@ class ObjectSchema {
     put(key, {{"type", "integer"}, {"minimum", smallest}, {"maximum", largest}}, presence);
   }
   void text(const Key& key, std::string_view, Presence presence) { put(key, {{"type", "string"}}, presence); }
-  /// A text that is always the same.
+  /// Text with a fixed value.
   void constant(const Key& key, std::string_view value, Presence presence) { put(key, {{"const", value}}, presence); }
   void flag(const Key& key, bool, Presence presence) { put(key, {{"type", "boolean"}}, presence); }
   void optional_flag(const Key& key, const std::optional<bool>&) { flag(key, false, Need::optional); }
@@ -97,16 +97,16 @@ class ObjectSchema {
     });
     put_known(key, entries.at("properties"), need);
   }
-  /// Numbers by any name.
+  /// Object of numbers with arbitrary keys.
   void any_numbers(const Key& key, const Range& range) {
     put(key, {{"type", "object"}, {"additionalProperties", number_in(range)}}, Need::optional);
   }
   void shared(std::string_view name) { shared_ = name; }
-  /// Of an object whose forms differ: the property as it is.
+  /// Adds a property with a given schema, for objects with several forms.
   void put(const Key& key, Json schema, Presence presence);
-  /// A reference to this schema, which stands in several places, among the definitions.
+  /// Adds a schema to the definitions, and returns a reference to it.
   Json defined(const std::string& name, Json schema);
-  /// The schema of what `body(ObjectSchema&)` describes.
+  /// Schema of what `body(ObjectSchema&)` describes.
   template <class Body>
   Json described(Body body) {
     Json object;
@@ -127,7 +127,7 @@ class ObjectSchema {
   std::string shared_;
 };
 
-/// The schema of a file: that of its object, with its definitions.
+/// Schema of a file: that of its object, with its definitions.
 nlohmann::ordered_json document_schema(std::string_view title, std::string_view description,
                                        nlohmann::ordered_json object, nlohmann::ordered_json definitions);
 

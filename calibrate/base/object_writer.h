@@ -12,7 +12,7 @@
 
 namespace pastefit {
 
-/// Writes what an `ObjectReader` reads, with the same calls, so that one description serves both ways.
+/// Writes what an `ObjectReader` reads, by the same calls, so that one description serves both.
 template <class Json>
 class BasicObjectWriter {
  public:
@@ -134,6 +134,6 @@ class BasicObjectWriter {
 };
 
 using ObjectWriter = BasicObjectWriter<nlohmann::json>;
-using OrderedObjectWriter = BasicObjectWriter<nlohmann::ordered_json>;  ///< as it is described
+using OrderedObjectWriter = BasicObjectWriter<nlohmann::ordered_json>;  ///< keeps the order of the calls
 
 }  // namespace pastefit

@@ -7,15 +7,15 @@
 
 namespace pastefit {
 
-/// Ends a verb of the program, or a call from Python, that cannot do what it was asked for. Only these throw it; what
-/// they call answers with a `Result`.
+/// Exception that ends a verb of the program, or a call from Python. Thrown at that level only; lower levels return a
+/// `Result`.
 struct Refusal {
   Faults faults;  ///< all of them
   int status;     ///< exit status of the verb
 };
 
-inline constexpr int kBadInput = 2;  ///< what the user gave cannot be used; nothing was written
-inline constexpr int kFailed = 1;    ///< the run has no answer, or could not keep it
+inline constexpr int kBadInput = 2;  ///< unusable input; nothing was written
+inline constexpr int kFailed = 1;    ///< no result, or the result could not be saved
 
 inline void refuse(Faults faults, int status = kBadInput) {
   if (!faults.empty()) throw Refusal{std::move(faults), status};
@@ -27,7 +27,7 @@ T value_or_throw(Result<T> result, int status = kBadInput) {
   return std::move(result).value();
 }
 
-/// Where all faults are to be told at once.
+/// Collects faults, to report all of them together.
 inline void append(Faults& faults, Faults more) {
   faults.insert(faults.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }

@@ -15,7 +15,7 @@ double quantile(double freedom, double false_alarm) {
   return boost::math::quantile(boost::math::complement(distribution, false_alarm / 2));
 }
 
-/// By how much the sums of two equal means may differ.
+/// Rounding difference of the sums of two equal means.
 double rounding(double first, double second) {
   return 1e-9 * std::max(std::min(std::abs(first), std::abs(second)), 1e-3);
 }
@@ -38,7 +38,7 @@ Sample sample_of(std::span<const double> values) {
   Sample out;
   out.count = static_cast<int>(values.size());
   if (values.empty()) return out;
-  out.mean = values.front();  // about which there is nothing to round where all are the same
+  out.mean = values.front();  // exact for equal values
   for (const double value : values) out.mean += (value - values.front()) / out.count;
   double squares = 0;
   for (const double value : values) squares += (value - out.mean) * (value - out.mean);

@@ -10,8 +10,8 @@
 
 namespace pastefit {
 
-/// The lines of a starting file, into which values are written. A line that is named and not there is a mistake in the
-/// program, std::logic_error: a value would be lost without a word.
+/// Lines of a starting file, for inserting values. Throws std::logic_error if a line to be replaced is missing, since a
+/// value would be lost.
 class TemplateLines {
  public:
   explicit TemplateLines(const std::string& text) {
@@ -19,15 +19,15 @@ class TemplateLines {
     for (std::string line; std::getline(stream, line);) lines_.push_back(line);
   }
 
-  /// Replaces `count` lines from the first that begins so, blanks aside. The blanks before it are kept; none of
-  /// `instead`: the lines go.
+  /// Replaces `count` lines from the first one that begins with `beginning` after its indentation, which is kept. An
+  /// empty `instead` removes them.
   void replace(std::string_view beginning, const std::vector<std::string>& instead, std::size_t count = 1) {
     const std::size_t at = find(beginning);
     if (count > lines_.size() - at) missing(std::to_string(count) + " lines from " + std::string(beginning));
     exchange(at, at + count, instead, blanks(lines_[at]));
   }
 
-  /// Replaces the lines between the first that begins so, blanks aside, and its closing brace, two blanks farther in.
+  /// Replaces the lines between the first one that begins with `beginning` and its closing brace, with two more blanks.
   void replace_inside(std::string_view beginning, const std::vector<std::string>& instead) {
     const std::size_t first = find(beginning) + 1;
     const std::string outside = blanks(lines_[first - 1]);
@@ -67,10 +67,10 @@ class TemplateLines {
   std::vector<std::string> lines_;
 };
 
-/// What starting files have in the place of a source, for a person to replace.
+/// Placeholder of the source in starting files.
 inline constexpr std::string_view kSourceToFillIn = "laboratory, person, date";
 
-/// The source as it was given: empty if it is still what a starting file has there, which is nobody's.
+/// The given source; empty if it is still the placeholder.
 inline std::string stated_source(const std::string& source) {
   return source == kSourceToFillIn ? std::string() : source;
 }

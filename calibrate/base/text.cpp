@@ -14,13 +14,13 @@ namespace {
 
 using nlohmann::json;
 
-/// Letters, not bytes: in UTF-8 those that go on with a letter begin with 10.
+/// Number of characters: continuation bytes in UTF-8 begin with 10.
 std::size_t letters_in(std::string_view text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
 }
 
-/// Where the rest of a long line begins.
+/// Indentation of continuation lines.
 std::size_t hanging_indent(std::string_view line, std::size_t columns) {
   const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
   const std::size_t gap = std::min(line.find("  ", begin), line.size());
@@ -29,7 +29,7 @@ std::size_t hanging_indent(std::string_view line, std::size_t columns) {
   return second < line.size() && column <= columns / 2 ? column : begin + 2;
 }
 
-/// Whether what stands around a blank is one number: "34.9 +- 6", "95 %".
+/// True if the text around a blank is one number: "34.9 +- 6", "95 %".
 bool within_number(std::string_view line, std::size_t blank) {
   const std::string_view before = line.substr(0, blank), after = line.substr(blank + 1);
   return after.starts_with('%') || after.starts_with("+- ") || before.ends_with("+-");
@@ -74,13 +74,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 constexpr std::string_view no_character = "\xEF\xBF\xBD";  // U+FFFD
 
-/// A character and the bytes that it takes; 0 bytes where there is none.
+/// Code point and its number of bytes; 0 bytes at the end.
 struct Character {
   std::uint32_t code = 0;
   std::size_t bytes = 0;
 };
 
-/// The first character of a text that is not empty.
+/// First character of a non-empty text.
 Character first_of(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   if (byte(0) < 0x80) return {byte(0), 1};
@@ -99,14 +99,14 @@ Character first_of(std::string_view text) {
   return too_long || no_letter ? Character{} : Character{code, bytes};
 }
 
-/// Controls, separators of lines, and what turns the direction of writing.
+/// Control characters, line separators, and controls of writing direction.
 bool is_control(std::uint32_t code) {
   const auto within = [&](std::uint32_t first, std::uint32_t last) { return code >= first && code <= last; };
   return code < 0x20 || within(0x7F, 0x9F) || within(0x200E, 0x200F) || within(0x2028, 0x202E) ||
          within(0x2066, 0x2069) || within(0xFFFE, 0xFFFF);
 }
 
-/// A character and what stands in its place.
+/// Character and its replacement.
 using Replacement = std::pair<std::uint32_t, std::string_view>;
 
 std::string replaced(std::string_view text, std::initializer_list<Replacement> replacements) {
@@ -160,7 +160,7 @@ std::string small_letters(std::string_view text) {
 }
 
 std::optional<std::string> nearest(std::string_view word, const std::set<std::string, std::less<>>& candidates) {
-  constexpr std::size_t longest = 200;  // a longer word is no slip of the pen, and the distance is quadratic
+  constexpr std::size_t longest = 200;  // longer words are no typing errors, and the distance is quadratic
   if (word.size() > longest) return std::nullopt;
   const std::string* best = nullptr;
   std::size_t best_distance = 0;
@@ -218,7 +218,7 @@ std::string json_text(const nlohmann::ordered_json& value) {
 std::string json_in_html(const nlohmann::ordered_json& value) {
   std::string out;
   for (const char letter : value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)) {
-    // Outside of its texts JSON has none of these.
+    // JSON has none of these outside its strings.
     if (letter == '<' || letter == '>' || letter == '&')
       out += letter == '<' ? "\\u003c" : letter == '>' ? "\\u003e" : "\\u0026";
     else

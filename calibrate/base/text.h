@@ -17,7 +17,7 @@
 
 namespace pastefit {
 
-/// A text by printf's rules. Numbers and C strings only.
+/// printf-formatted text. Numbers and C strings only.
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
   const int length = std::snprintf(nullptr, 0, pattern, values...);
@@ -26,88 +26,86 @@ std::string format(const char* pattern, Values... values) {
   return text;
 }
 
-/// A number with the fewest digits that are read back as the same one: 0.3, where %.17g says 0.29999999999999999.
+/// Shortest decimal number with the same value: 0.3, where %.17g gives 0.29999999999999999.
 inline std::string exact(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
   return {text, end};
 }
 
-/// The number with so many digits, as JSON then writes it: a point that is drawn needs no more.
+/// Rounds to significant digits, which shortens the JSON of drawn points.
 inline double rounded(double value, int digits = 5) {
   return std::strtod(format("%.*g", digits, value).c_str(), nullptr);
 }
 
-/// The number with so many digits as people write it: "11900", where printf has "1.19e+04".
+/// Number with `digits` significant digits without exponent: "11900", where printf gives "1.19e+04".
 inline std::string plain(double value, int digits = 3) {
   return format("%.9g", rounded(value, digits));
 }
 
 inline constexpr std::size_t kColumns = 80;
 
-/// Text for people with its lines broken between words, so that none is longer than so many columns; a word that is
-/// longer by itself, as a path is, stays whole, and a number stays beside its error and its percent sign. What goes on
-/// stands below the second column of a table's row, else two columns in from its line.
+/// Breaks lines between words at `columns`. Longer words, e.g. paths, stay whole; a number stays with its error and
+/// percent sign. Continuation lines start at the second column of a table row, otherwise two columns to the right.
 std::string wrapped(std::string_view text, std::size_t columns = kColumns);
 
-/// What stands in place of a key that no description names; such a fault leaves the other values as they are.
+/// `what` of the fault of an unknown key, which does not affect other values.
 inline constexpr std::string_view unknown_key = "unknown key";
 
-/// Puts the file's name before the place of each fault: "mix.json: measurements.step1.height_mm"; nothing, if it has
-/// none.
+/// Prefixes the place of each fault with the file name: "mix.json: measurements.step1.height_mm"; unchanged without a
+/// name.
 Faults in_file(Faults faults, const std::filesystem::path& file);
 
-/// One message that lists every fault, one a line: "place: what; remedy".
+/// Message with one line per fault: "place: what; remedy".
 std::string message_of(const Faults& faults);
 
-/// A number as it is shown to people, at most six digits.
+/// Number for display, at most six digits.
 inline std::string shown(double number) {
   return format("%.6g", number);
 }
 
-/// The text in small letters, as far as they are ASCII.
+/// Converts ASCII letters to small letters.
 std::string small_letters(std::string_view text);
 
-/// The candidate with the smallest edit distance to `word`, whatever the case of its letters, if it is near enough to
-/// be a slip of the pen.
+/// Candidate with the smallest edit distance to `word`, ignoring case; nothing if none is near enough for a typing
+/// error.
 std::optional<std::string> nearest(std::string_view word, const std::set<std::string, std::less<>>& candidates);
 
-/// A word of the user's in quotes, cut if long; control characters, which could drive a terminal, are escaped.
+/// User text in quotes, truncated if long, with control characters escaped.
 std::string in_quotes(std::string_view text);
 
-/// The same without quotes, for a key as part of a place.
+/// As `in_quotes` without quotes, for a key in a place.
 std::string printable(std::string_view text);
 
-/// The path of a key in an object at `place`, which is empty for the document itself.
+/// Path of a key in an object at `place`, which is empty for the document.
 std::string joined(const std::string& place, std::string_view key);
 
-/// Texts that somebody else wrote (a title, a note, the name of a file), made fit for the place they are written to.
-/// Every such text goes through the function of its target. All of them answer with valid UTF-8, in which bytes that
-/// are none are U+FFFD, and control characters, which could drive a terminal or turn the order of its letters round,
-/// are spaces.
+/// Conversion of foreign texts (titles, notes, file names) for their target; every such text must pass through one of
+/// these functions. All return valid UTF-8: invalid bytes become U+FFFD; control characters, which could drive a
+/// terminal or reverse the direction of writing, become spaces.
 
-/// For people, as part of a line.
+/// For display, as part of a line.
 std::string one_line(std::string_view text);
 
-/// For people, as it is: line breaks and tabs stay.
+/// For display, with line breaks and tabs.
 std::string lines_of(std::string_view text);
 
-/// A comment of one line, "# ...\n", in the decks of LAMMPS and LIGGGHTS and in a Python module: what their readers
-/// look for in comments too (quotation marks, variables, continued lines) is replaced. Python reads its encoding from
-/// comments of the first two lines: such a comment has to stand further down.
+/// One-line comment, "# ...\n", for LAMMPS and LIGGGHTS decks and Python modules. Replaces what their parsers evaluate
+/// in comments (quotation marks, variables, continued lines). Not for the first two lines of a Python module, where a
+/// comment may set the encoding.
 std::string deck_comment(std::string_view text);
 
-/// Content or an attribute of XML; a line break in it is a character reference.
+/// Content or attribute of XML; line breaks become character references.
 std::string xml_text(std::string_view text);
 
-/// JSON with indentation, ending with a line break; control characters are escaped.
+/// Indented JSON with a final line break; control characters are escaped.
 std::string json_text(const nlohmann::ordered_json& value);
 
-/// JSON on one line to stand in an element of HTML, a script's too: no text in it can end the element or begin another,
-/// because "<", ">" and "&" are written as escapes, like all that is not ASCII.
+/// One-line JSON for an HTML element, including scripts: "<", ">", "&" and non-ASCII characters are escaped, so no text
+/// can end the element or begin another.
 std::string json_in_html(const nlohmann::ordered_json& value);
 
-/// The text as one word of a shell, in single quotes.
+/// One shell word in single quotes.
 inline std::string shell_word(std::string_view text) {
   std::string out = "'";
   for (const char letter : text) {
@@ -119,18 +117,18 @@ inline std::string shell_word(std::string_view text) {
   return out + "'";
 }
 
-/// The same of a text that a person may paste: as it is, where no shell reads anything into it.
+/// Shell word for pasting: quoted only if necessary.
 inline std::string shell_word_if_needed(std::string_view text) {
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+,:@-";
   const bool as_it_is = !text.empty() && text[0] != '-' && text.find_first_not_of(plain) == std::string_view::npos;
   return as_it_is ? std::string(text) : shell_word(text);
 }
 
-/// Bytes as text of 64 letters, four for each three bytes, the last ones filled up with "=" (RFC 4648).
+/// Base64 with padding (RFC 4648).
 std::string base64(std::string_view bytes);
 
-/// FNV-1a, 64 bits, as 16 hexadecimal digits. Tells contents apart; no protection against intent.
-/// Source: Fowler, Noll & Vo; offset basis 0xcbf29ce484222325, prime 0x100000001b3.
+/// FNV-1a, 64 bits, as 16 hexadecimal digits. Distinguishes contents; not cryptographic. Source: Fowler, Noll & Vo;
+/// offset basis 0xcbf29ce484222325, prime 0x100000001b3.
 inline std::string content_hash(std::string_view content) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char byte : content) {

@@ -11,8 +11,8 @@
 namespace pastefit {
 namespace {
 
-/// One row for one spelling, as `spelled` makes it; of a quantity the key's own unit is the first, and the first
-/// spelling of a unit is the one that is shown.
+/// One row per spelling, as returned by `spelled`. The key's own unit is the first of a quantity; the first spelling of
+/// a unit is displayed.
 struct Spelling {
   std::string_view word;
   Unit unit;
@@ -64,7 +64,7 @@ constexpr std::array<Spelling, 37> spellings{{
     {"rad_s", {"rad/s", "rad_s", 1}},
 }};
 
-/// In small letters, with '_' for '/' and without '^'; a superscript three is one.
+/// Small letters, '_' for '/', no '^', and digits for superscripts.
 std::string spelled(std::string_view word) {
   std::string out;
   for (std::size_t i = 0; i < word.size(); ++i) {
@@ -108,7 +108,7 @@ std::optional<Unit> unit_of_place(std::string_view place) {
   } while (!place.empty() && std::ranges::count(of_parent, step) > 0);
   const bool weight = place.starts_with("weights") || place.find(".weights") != std::string_view::npos;
   const std::optional<Unit> unit = weight ? std::nullopt : unit_of_key(step);
-  return unit && unit->factor == 1 ? unit : std::nullopt;  // keys in SI are those of cards, which nobody types
+  return unit && unit->factor == 1 ? unit : std::nullopt;  // SI keys are those of cards, which are not typed
 }
 
 std::string in_other_units(double number, std::string_view key_unit, double smallest, double largest) {

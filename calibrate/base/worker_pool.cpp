@@ -23,7 +23,7 @@ std::shared_future<void> WorkerPool::submit(std::function<void()> work) {
       try {
         workers_.emplace_back([this] { take_work(); });
       } catch (const std::system_error&) {
-        // Those that the system let us have do the work; if there is none, whoever hands it in.
+        // Existing threads process the work; without any, the caller does.
       }
     }
     if (!workers_.empty()) {

@@ -10,16 +10,16 @@
 
 namespace pastefit {
 
-/// Threads that take work in the order it is handed in. They start as work arrives, at most `threads` of them, and live
-/// as long as the pool. Requirements: threads >= 1.
+/// Pool of threads that process work in order of submission. It starts at most `threads` threads, as work arrives, and
+/// ends them on destruction. Requirement: threads >= 1.
 class WorkerPool {
  public:
   explicit WorkerPool(int threads) : threads_(static_cast<std::size_t>(threads)) {}
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
-  ~WorkerPool();  ///< waits for the work that has begun and drops the rest
+  ~WorkerPool();  ///< completes running work and drops the rest
 
-  /// Ready when the work is done; holds what the work throws.
+  /// Ready when the work is done; holds its exception, if any.
   std::shared_future<void> submit(std::function<void()> work);
 
  private:

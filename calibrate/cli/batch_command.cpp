@@ -31,23 +31,23 @@ struct BatchArguments {
   std::vector<std::string> studies;
   std::string out;
   int workers = 0;
-  bool table = false;     ///< only the table, of what is there
-  bool no_table = false;  ///< as an element of an array, whose table another job makes
-  bool slurm = false;     ///< only the scripts
+  bool table = false;     ///< only the table of existing results
+  bool no_table = false;  ///< for an array element; another job writes the table
+  bool slurm = false;     ///< write scripts only
   bool force = false;
 };
 
-constexpr int kMostDeaths = 3;      // of one calibration's process, as of a worker
-constexpr int kElementWorkers = 4;  // cores of an element of an array, if it is not said
+constexpr int kMostDeaths = 3;      // of one calibration's process
+constexpr int kElementWorkers = 4;  // default number of cores of an array element
 const std::string kBatchTable = "batch.csv", kBatchPage = "batch.html";
 const std::string kArrayScript = "batch.sbatch", kTableScript = "batch-table.sbatch";
 
-/// What keeps some study from being calibrated, of all studies at once.
+/// Reasons why studies cannot be calibrated, of all studies together.
 Faults unfit_studies(const std::vector<BatchStudy>& batch, const BatchArguments& options) {
   Faults faults;
   for (const BatchStudy& one : batch) {
     CalibrateOptions how;
-    how.threads = options.slurm ? 1 : options.workers;  // this machine's memory says nothing of a cluster's
+    how.threads = options.slurm ? 1 : options.workers;  // memory is that of this machine, not of the cluster
     const bool asked_for = options.force || is_finished(one);
     Faults found = in_file(validate(one.study, how), one.file);
     if (found.empty())
@@ -67,7 +67,7 @@ void write_table(const std::vector<BatchRow>& rows, const fs::path& out) {
   note("wrote %s\nwrote %s\n", (out / kBatchTable).c_str(), (out / kBatchPage).c_str());
 }
 
-/// Why a calibration has no card, from how its process ended; nothing if it has one.
+/// Reason for a missing card from the end of the process; nothing if there is a card.
 std::optional<BatchFailure> failure_after(const BatchStudy& one, const ChildEnd& end) {
   if (end.signal != 0)
     return BatchFailure{"failed", format("its process was killed by signal %d, ", end.signal) +
@@ -83,8 +83,8 @@ std::optional<BatchFailure> failure_after(const BatchStudy& one, const ChildEnd&
   return BatchFailure{answer.value("status", "failed"), answer.value("reason", "")};
 }
 
-/// Calibrates one study as `pastefit calibrate --resume` does, in a process of its own: what kills that one stops no
-/// other study.
+/// Calibrates one study with `pastefit calibrate --resume` in a child process, so that a crash does not affect other
+/// studies.
 Faults calibrate_one(const BatchStudy& one, const BatchArguments& options, const std::atomic<bool>& stop) {
   std::vector<std::string> words{"calibrate", one.file.string(), "--out", one.folder.string(), "--resume", "--json"};
   if (options.workers > 0) words.insert(words.end(), {"--threads", std::to_string(options.workers)});
@@ -101,13 +101,13 @@ Faults calibrate_one(const BatchStudy& one, const BatchArguments& options, const
   } catch (const std::system_error& failed) {
     return write_failure(one, {"failed", std::string("no process could be started: ") + failed.what()});
   }
-  if (end.signal != 0 && stop) return {};  // it goes on where it was
+  if (end.signal != 0 && stop) return {};  // can be continued
   if (const auto failure = failure_after(one, end)) return write_failure(one, *failure);
-  fs::remove(one.folder / kFailureFile, error);  // of another batch that met this one at work
+  fs::remove(one.folder / kFailureFile, error);  // written by a concurrent batch
   return {};
 }
 
-/// Calibrates what is not finished, one after the other.
+/// Calibrates the unfinished studies one after the other.
 Faults calibrate_all(const std::vector<BatchStudy>& batch, const BatchArguments& options,
                      const std::atomic<bool>& stop) {
   Faults all;
@@ -116,7 +116,7 @@ Faults calibrate_all(const std::vector<BatchStudy>& batch, const BatchArguments&
     const bool finished = is_finished(one);
     note("%zu of %zu: %s%s\n", i + 1, batch.size(), one.name.c_str(), finished ? ": finished before" : "");
     if (finished) continue;
-    append(all, calibrate_one(one, options, stop));  // what one study meets stops no other
+    append(all, calibrate_one(one, options, stop));  // continue with the next study
     const BatchRow row = row_of(one);
     print("%s: %s%s%s\n", one.name.c_str(), row.verdict.c_str(), row.reasons.empty() ? "" : ": ", row.reasons.c_str());
     std::fflush(stdout);
@@ -134,11 +134,11 @@ int run_on_this_machine(const std::vector<BatchStudy>& batch, const BatchArgumen
   const auto confirmed = std::ranges::count(rows, "confirmed", &BatchRow::verdict);
   if (!options.no_table) print("%td of %zu studies are confirmed\n", confirmed, rows.size());
   refuse(faults, kFailed);
-  const bool whole = std::ranges::all_of(batch, is_finished);  // with its page
+  const bool whole = std::ranges::all_of(batch, is_finished);  // including the page
   return options.table || (whole && confirmed == std::ssize(rows)) ? kDone : kFailed;
 }
 
-/// The scripts of the arrays that the batch needs, by name: Slurm has a limit on the elements of one.
+/// Scripts of the arrays of the batch, by name: Slurm limits the number of elements.
 std::vector<std::pair<std::string, std::string>> array_scripts(const ArrayJob& whole) {
   std::vector<std::pair<std::string, std::string>> out;
   for (std::size_t begin = 0; begin < whole.studies.size(); begin += kMostElements) {
@@ -153,7 +153,7 @@ std::vector<std::pair<std::string, std::string>> array_scripts(const ArrayJob& w
   return out;
 }
 
-/// Writes the scripts, and says how they are submitted.
+/// Writes the scripts, and prints the commands that submit them.
 int write_jobs(const BatchArguments& options) {
   std::error_code error;
   const ArrayJob job{fs::read_symlink("/proc/self/exe", error), fs::current_path(error), options.out, options.studies,

@@ -42,8 +42,8 @@ struct CalibrateArguments {
   std::optional<std::uint64_t> seed;
 };
 
-/// Writes what a calibration brought to its folder, card, summary, curves and page, and prints it. The exit status:
-/// only a confirmed material is what was asked for.
+/// Writes card, summary, curves and page of a calibration to its folder, and prints the result. Exit status: success
+/// only for a confirmed material.
 int deliver_material(const CalibrationResult& result, const Store& store, const OutputFolder& folder,
                      const CalibrateArguments& options, const std::atomic<bool>& stop, RunRecordings& seen) {
   const Card& card = *result.card;
@@ -59,7 +59,7 @@ int deliver_material(const CalibrationResult& result, const Store& store, const 
   return card.search.status == name_of(CalibrationStatus::confirmed) ? kDone : kFailed;
 }
 
-/// Says why there is no card; the page has what was seen until then.
+/// Prints the reason for a missing card; the page shows the results so far.
 int say_why_not(const CalibrationResult& result, const Study& study, const Store& store, const OutputFolder& folder,
                 bool json) {
   auto failures = nlohmann::ordered_json::object();
@@ -80,7 +80,7 @@ int say_why_not(const CalibrationResult& result, const Study& study, const Store
   return kFailed;
 }
 
-/// The study with what the options say instead of its file.
+/// Reads the study and applies the options.
 Study study_to_calibrate(const CalibrateArguments& options) {
   Study study = value_or_throw(read_study(options.study));
   if (options.budget > 0) study.search.budget_simulations = options.budget;
@@ -88,7 +88,7 @@ Study study_to_calibrate(const CalibrateArguments& options) {
   return study;
 }
 
-/// What keeps the study from being calibrated. What the option says instead of the file is the option's fault.
+/// Reasons why the study cannot be calibrated; those of an overridden value name the option.
 Faults faults_of(const Study& study, const CalibrateOptions& how, const CalibrateArguments& options) {
   auto faults = in_file(validate(study, how), options.study);
   for (Fault& fault : faults)
@@ -96,7 +96,7 @@ Faults faults_of(const Study& study, const CalibrateOptions& how, const Calibrat
   return faults;
 }
 
-/// A calibration of more than a day has to be asked for: by a budget of time, by going on with it, or by force.
+/// A calibration of more than a day requires a time budget, `--resume` or `--force`.
 Faults too_long_faults(const Study& study, const CalibrateArguments& options) {
   const bool asked_for = options.force || options.resume || options.wall_budget_s > 0 || options.core_budget_s > 0;
   return long_run_faults(options.study + ": search.budget_simulations",

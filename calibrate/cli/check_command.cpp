@@ -50,7 +50,7 @@ int rebaseline_all(const CheckCommand& options) {
   line.clear();
   for (std::size_t i = 0; i < cards.size(); ++i) {
     refuse(write_card(options.cards[i], cards[i]), kFailed);
-    const auto packings = cards[i].tests.front().baseline.runs.size();  // as many as every other test
+    const auto packings = cards[i].tests.front().baseline.runs.size();  // same number for every test
     print("%s: new baseline of %zu packings\n", options.cards[i].c_str(), packings);
     for (const auto& moved : cards[i].rebaselined.back().moved)
       print("  %-26s %12.6g -> %.6g\n", moved.reading.c_str(), moved.before, moved.after);
@@ -58,7 +58,7 @@ int rebaseline_all(const CheckCommand& options) {
   return kDone;
 }
 
-/// 0 all agree, 1 some card disagrees, 2 none disagrees but some could not be checked.
+/// 0: all agree, 1: a card disagrees, 2: none disagrees, but some could not be checked.
 int status_of(const std::vector<CheckedFile>& checked) {
   const auto any = [&](CheckVerdict verdict) {
     return std::ranges::any_of(checked, [&](const auto& one) { return one.check.verdict == verdict; });

@@ -7,10 +7,10 @@
 
 namespace pastefit {
 
-/// Exit status of the program, beside those of a `Refusal`.
+/// Exit status of the program; others are in `Refusal`.
 inline constexpr int kDone = 0;
 
-/// A verb adds its options to the program and returns what runs it, with the exit status as answer. What it throws as a
+/// Adds the options of a verb and returns the function that runs it, whose result is the exit status. A thrown
 /// `Refusal` is printed to standard error.
 using Command = std::function<int()>;
 Command add_batch(CLI::App& verb);

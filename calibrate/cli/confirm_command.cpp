@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kFirstConfirmPacking = 80'001;  // of neither a search nor `rescale`
+constexpr std::uint64_t kFirstConfirmPacking = 80'001;  // not used by searches or `rescale`
 
 struct ConfirmOptions {
   std::string card, engine = "lammps", launch, program, runs, test, out;
@@ -41,7 +41,7 @@ struct ConfirmOptions {
   bool json = false;
 };
 
-/// Where decks, logs and heaps go: the user's folder, or else a new one that only this user can read.
+/// Folder of decks, logs and heaps: the given one, or a new one readable only by this user.
 fs::path folder_of_runs(const std::string& given) {
   std::error_code error;
   if (!given.empty()) return fs::absolute(given, error);
@@ -53,7 +53,7 @@ fs::path folder_of_runs(const std::string& given) {
   return name;
 }
 
-/// The test in the grains to be simulated.
+/// The test with the grains to be simulated.
 struct Asked {
   Card card;      ///< with these grains
   CardTest test;  ///< of that card
@@ -71,7 +71,7 @@ Asked asked_for(const Card& card, const ConfirmOptions& options) {
   return asked;
 }
 
-/// What is wrong with the options alone, besides the card.
+/// Faults of the options, independent of the card.
 Faults unusable_options(const ConfirmOptions& options) {
   Faults faults;
   if (options.engine != "lammps")
@@ -86,7 +86,7 @@ Faults unusable_options(const ConfirmOptions& options) {
   return faults;
 }
 
-/// Runs packing after packing. The first failure ends it.
+/// Runs the packings one after the other until the first failure.
 Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const fs::path& folder,
                            const ConfirmOptions& options, const std::atomic<bool>& stop) {
   EngineRuns out;
@@ -117,8 +117,7 @@ Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const
   return out;
 }
 
-/// The card as it is now: another confirmation may have been written on it meanwhile. Refused if its material is
-/// another.
+/// Reads the card again, since another confirmation may have been added. Refused if the material has changed.
 Card card_now(const ConfirmOptions& options, const Card& confirmed) {
   Card now = value_or_throw(read_card(options.card), kFailed);
   const auto without_confirmations = [](Card card) {
@@ -130,7 +129,7 @@ Card card_now(const ConfirmOptions& options, const Card& confirmed) {
   return now;
 }
 
-/// Adds the confirmation to the card and writes that, or prints it.
+/// Adds the confirmation to the card and writes it, or prints it.
 void deliver(const ConfirmOptions& options, const Card& confirmed, const FurtherConfirmation& further) {
   const FileLock lock(options.card);
   Card card = card_now(options, confirmed);

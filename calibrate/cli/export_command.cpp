@@ -39,7 +39,7 @@ int export_to_folder(const ExportOptions& options) {
   const auto folder = value_or_throw(
       OutputFolder::open(options.out, names, options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace));
   for (const auto& file : files) {
-    std::error_code ignored;  // what cannot be made cannot be written into
+    std::error_code ignored;  // the error shows up on writing
     std::filesystem::create_directories(folder.file(file.name).parent_path(), ignored);
     refuse(write_atomically(folder.file(file.name), file.content), kFailed);
   }

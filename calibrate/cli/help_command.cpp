@@ -16,16 +16,16 @@
 
 namespace pastefit {
 
-// Manual and completion, made from the command line's own definitions, so that they say what the program does.
+// Manual and shell completion, generated from the definitions of the command line.
 
 namespace {
 
-/// The verbs of a program, in the order of its table.
+/// Verbs of a program, in the order of its table.
 std::vector<const CLI::App*> verbs_of(const CLI::App& program) {
   return program.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// Text as roff takes it: no line begins a request, and a hyphen is the one that is typed.
+/// Escapes text for roff: no line begins a request, and hyphens stay ASCII.
 std::string roff(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -117,7 +117,7 @@ std::string fish_completion(const CLI::App& program) {
   return out;
 }
 
-/// The page of a verb, or of the program itself, for man(1), section 1.
+/// Page of a verb, or of the program, for man(1), section 1.
 std::string man_page_of(const CLI::App& app) {
   const bool is_program = app.get_parent() == nullptr;
   const std::string name = (is_program ? "" : "pastefit-") + app.get_name();
@@ -143,7 +143,7 @@ std::string man_page_of(const CLI::App& app) {
 
 namespace fs = std::filesystem;
 
-/// Every page, and a completion for each shell, as packages have them.
+/// Writes every page, and a completion for each shell, in the layout of packages.
 int write_manual(const CLI::App& program, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -162,7 +162,7 @@ int write_manual(const CLI::App& program, const fs::path& folder) {
 
 int print_help(const CLI::App& program, const std::string& name) {
   if (name.empty()) {
-    // Not program.help(), which is that of the verb in use: of this one.
+    // program.help() would print the help of the current verb.
     const auto form = program.get_formatter();
     print("%s", form->make_help(&program, program.get_name(), CLI::AppFormatMode::Normal).c_str());
     return kDone;

@@ -27,7 +27,7 @@ struct InferOptions {
   bool json = false;
 };
 
-/// What keeps a card from being one of the study as it is.
+/// Reasons why a card does not belong to the present study.
 Faults differences(const Card& card, const Study& study, const std::string& file) {
   Faults faults;
   const auto compare = [&](const std::string& name, const std::string& before, const std::string& now) {

@@ -30,7 +30,7 @@ bool can_be_run(const fs::path& file) {
   return fs::is_regular_file(file, error) && ::access(file.c_str(), X_OK) == 0;
 }
 
-/// The file that a shell would start; empty: there is none.
+/// File that a shell would start; may be empty.
 fs::path program_file(const std::string& name) {
   if (name.find('/') != std::string::npos) return can_be_run(name) ? fs::absolute(name) : fs::path();
   const char* path = std::getenv("PATH");
@@ -40,14 +40,14 @@ fs::path program_file(const std::string& name) {
   return {};
 }
 
-/// Where built programs are kept; empty: the user has no home.
+/// Cache of built programs; empty if the user has no home.
 fs::path cache_folder() {
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return fs::path(cache) / "pastefit";
   if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "pastefit";
   return {};
 }
 
-/// Nothing of what is no regular file, which may have no end, or is too large for a log or a deck.
+/// Content of a regular file, limited to the size of logs and decks; empty for other files, which may be endless.
 std::string content_of_file(const fs::path& file) {
   auto content = read_input(file, {.largest_bytes = 256u << 20, .remedy = {}});
   return content.ok() ? std::move(content).value() : std::string();
@@ -68,7 +68,7 @@ Faults missing_for_build() {
   return faults;
 }
 
-/// Compiles in a folder of its own beside the program, which appears whole or not at all.
+/// Compiles in a separate folder beside the program, which is then moved into place as a whole.
 Faults build(const std::vector<ExportFile>& sources, const fs::path& program, const std::atomic<bool>& stop) {
   const fs::path folder = program.string() + "." + std::to_string(::getpid()) + ".build";
   std::error_code error;
@@ -89,7 +89,7 @@ Faults build(const std::vector<ExportFile>& sources, const fs::path& program, co
 
 const std::string kLog = "log.lammps", kOutput = "output.txt";
 
-/// Whether this deck ran here to its end before.
+/// True if this deck has already completed in this folder.
 bool has_run(const ExportScene& scene, const std::vector<ExportFile>& deck, const fs::path& folder) {
   std::error_code error;
   return std::ranges::all_of(deck,
@@ -98,7 +98,7 @@ bool has_run(const ExportScene& scene, const std::vector<ExportFile>& deck, cons
          read_lammps_log(content_of_file(folder / kLog)).ended;
 }
 
-/// The deck without the sources of its program and without the two grains.
+/// The deck without the sources of the style and without the two-grain deck.
 Result<std::vector<ExportFile>> deck_of(const ExportScene& scene) {
   auto written = export_lammps(scene);
   if (!written.ok()) return written.faults();
@@ -108,7 +108,7 @@ Result<std::vector<ExportFile>> deck_of(const ExportScene& scene) {
   return files;
 }
 
-/// The last lines, which say what went wrong.
+/// Last lines of a text, which contain the error.
 std::string tail_of(const std::string& text) {
   constexpr std::size_t kMost = 600;
   std::string tail = text.size() > kMost ? text.substr(text.size() - kMost) : text;
@@ -117,7 +117,7 @@ std::string tail_of(const std::string& text) {
   return lines_of(tail);
 }
 
-/// Where a run is, as its output says: of a run that hangs always the same.
+/// Last output line, which shows the progress; it stays the same if a run hangs.
 std::string last_line_of(const fs::path& file) {
   constexpr std::size_t most = 60;
   std::string line = tail_of(content_of_file(file));
@@ -125,7 +125,7 @@ std::string last_line_of(const fs::path& file) {
   return one_line(line.substr(0, most));
 }
 
-/// Why a process that has ended left no heap; nothing if nothing is wrong with it.
+/// Reasons why a finished process left no heap; may be empty.
 Faults ill_end(const ChildEnd& end, const fs::path& folder) {
   const LammpsLog said = read_lammps_log(end.output);
   const std::string look = "look at " + (folder / kOutput).string();

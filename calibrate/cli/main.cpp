@@ -27,7 +27,7 @@ int report(const Refusal& refusal) {
   return refusal.status;
 }
 
-/// Which contact kernels runs take.
+/// Contact kernels used by runs.
 std::string kernels_note() {
   const std::string_view set = kernels_of_this_processor().instruction_set;
   const bool plain = set == sse2::kernels.instruction_set;
@@ -35,7 +35,7 @@ std::string kernels_note() {
          (plain ? " (slower than AVX2 and AVX-512, and with other last bits)" : "");
 }
 
-/// The options among these words that the verb does not have. CLI11 would name those first that are required.
+/// Options that the verb does not have; CLI11 would first report missing required ones.
 Faults unknown_options(const CLI::App& verb, int argc, char** argv) {
   std::set<std::string, std::less<>> names;
   for (const CLI::Option* option : verb.get_options())
@@ -51,7 +51,7 @@ Faults unknown_options(const CLI::App& verb, int argc, char** argv) {
   return faults;
 }
 
-/// Help with lines that fit a terminal.
+/// Help with lines that fit the terminal.
 struct WrappedHelp : CLI::Formatter {
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     return wrapped(CLI::Formatter::make_help(app, std::move(name), mode));
@@ -67,7 +67,7 @@ int run(int argc, char** argv) {
   program.fallthrough(false);
 
   struct Verb {
-    const char* group;  ///< what one wants, as a heading of the help
+    const char* group;  ///< heading in the help
     const char* name;
     const char* meaning;
     Command (*add)(CLI::App&);
@@ -140,8 +140,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pastefit: this is a bug of the program, please report it: %s\n", error.what());
   }
-  // Nothing is left to be done. A library that the system has linked may wait for a thread of its own for ever:
-  // OpenBLAS does, where there was too little memory when it was loaded.
+  // Skips the destructors of libraries: OpenBLAS waits forever for its thread if memory was low when it was loaded.
   std::fflush(nullptr);
   _exit(status);
 }

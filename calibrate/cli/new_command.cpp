@@ -28,15 +28,14 @@ namespace fs = std::filesystem;
 struct NewOptions {
   std::string folder = ".";
   std::string test = "slump";
-  std::string table;  ///< file of many sheets
+  std::string table;  ///< file with several sheets
   Sheet sheet;
   std::vector<std::string> readings, deviations, fixed, priors;  ///< "NAME=VALUES"
-  std::vector<std::pair<std::string, std::string>> by_name;      ///< of options with a name of their own
+  std::vector<std::pair<std::string, std::string>> by_name;      ///< readings given by options of their own
   bool force = false;
 };
 
-/// What a person answers to a question on the terminal, asked again until `faults_of` finds nothing. Nothing at the end
-/// of the input.
+/// Asks a question on the terminal, again until `faults_of` is empty. Nothing at the end of the input.
 std::optional<std::string> answer_to(const std::string& question, const std::string& suggestion,
                                      const std::function<Faults(const std::string&)>& faults_of) {
   while (true) {
@@ -60,7 +59,7 @@ std::string unit_in_words(const ShortReading& reading) {
   return reading.name == "mass" ? "kg" : reading.name == "angle" ? "degrees" : "mm";
 }
 
-/// Asks for each reading by its short name; an empty answer leaves it out.
+/// Asks for each reading by its short name; an empty answer omits it.
 bool ask_readings(Sheet& sheet, const SlumpTest& test) {
   const std::optional<DropPlate>& plate = test.drop;
   for (const ShortReading& one : short_readings()) {
@@ -69,7 +68,7 @@ bool ask_readings(Sheet& sheet, const SlumpTest& test) {
     if ((after_drop && !once) || (after_all && !often)) continue;
     if (one.name == "shift" || one.name == "mass" || one.name == "slump2") continue;
     if (one.name == "angle" && !test.reading.flank) continue;
-    const bool height = one.name == "height" && !sheet.readings.empty();  // a slump is one
+    const bool height = one.name == "height" && !sheet.readings.empty();  // a slump gives the height
     if (height) continue;
     const auto answer = answer_to(
         std::string(one.name) + ", " + std::string(one.meaning) + " (" + unit_in_words(one) +
@@ -84,7 +83,7 @@ bool ask_readings(Sheet& sheet, const SlumpTest& test) {
   return true;
 }
 
-/// Asks for what the options do not say. False at the end of the input.
+/// Asks for everything that the options do not give. False at the end of the input.
 bool ask_sheet(Sheet& sheet, const fs::path& folder) {
   const auto ask = [](std::string& target, const std::string& question, const std::string& suggestion,
                       const auto& faults_of) {
@@ -113,7 +112,7 @@ bool ask_sheet(Sheet& sheet, const fs::path& folder) {
   });
 }
 
-/// What the options lack, where nobody can be asked.
+/// Missing options, for use without a terminal.
 Faults missing_options(const Sheet& sheet) {
   Faults faults;
   if (sheet.mould.empty()) faults.push_back({"--mould", "is missing", "e.g. abrams, haegermann or 200/100/300"});
@@ -124,14 +123,14 @@ Faults missing_options(const Sheet& sheet) {
   return faults;
 }
 
-/// The starting files of a test of another kind are its template.
+/// Starting files of other kinds of tests: their templates.
 StartingFiles templates_of_kind(const std::string& kind) {
   const auto lab = template_text(kind + "-lab"), study = template_text(kind + "-study");
   if (!lab || !study) refuse({no_such_kind("--test", kind)});
   return StartingFiles{*lab, *study};
 }
 
-/// Texts "NAME=VALUES" of an option, parted.
+/// Splits option texts "NAME=VALUES".
 void part(const std::string& option, const std::vector<std::string>& texts, Sheet::Named& into, Faults& faults) {
   for (const std::string& text : texts) {
     const auto sign = text.find('=');
@@ -157,7 +156,7 @@ void read_options(NewOptions& options) {
   refuse(std::move(faults));
 }
 
-/// The files of one sheet and the folder that they go to.
+/// Files of one sheet and their target folder.
 struct Start {
   fs::path folder;
   StartingFiles files;
@@ -188,7 +187,7 @@ void write_files(const std::vector<Start>& starts, bool force) {
   }
 }
 
-/// Writes both files and says what was understood and what comes next.
+/// Writes both files, and prints what was understood and the next steps.
 int write_one(const NewOptions& options, const Start& start) {
   write_files({start}, options.force);
   if (const auto read = read_study(start.folder / "study.json"); read.ok())
@@ -214,7 +213,7 @@ std::vector<std::string> numbers_of(const std::vector<std::size_t>& lines) {
   return words;
 }
 
-/// What is wrong in the rows of a table: each fault once, with the lines that have it.
+/// Merges equal faults in the rows of a table, with the lines of each.
 Faults in_lines(const std::vector<std::pair<std::size_t, Fault>>& found) {
   Faults faults;
   std::vector<std::vector<std::string>> lines;
@@ -235,7 +234,7 @@ Faults in_lines(const std::vector<std::pair<std::size_t, Fault>>& found) {
   return faults;
 }
 
-/// Writes a study for each row of a table; that of a single one as if its sheet had been typed.
+/// Writes a study for each row of a table; a single row is treated like a typed sheet.
 int new_from_table(const NewOptions& options) {
   Faults of_table;
   const auto [rows, mix, unused, without, statistics] = read_sheet_table(options.table, options.sheet, of_table);

@@ -15,7 +15,7 @@ namespace pastefit {
 
 namespace {
 
-/// The number that the text is, as a whole.
+/// Parses the whole text as a number.
 template <class Number>
 std::optional<Number> number_of(const std::string& text) {
   Number number{};
@@ -38,7 +38,7 @@ CLI::Validator check_that(std::string right, Holds holds) {
 namespace fs = std::filesystem;
 
 constexpr double kHour_s = 3600, kDay_s = 24 * kHour_s;
-// Measured of a mould of 287 grains: 160 kB a picture in blocks of 4 kB, half of it the links.
+// Measured with a mould of 287 grains: 160 kB per picture in blocks of 4 kB, half of it for the links.
 constexpr double kBytesPerGrain = 500, kBytesPerPicture = 12e3;
 
 }  // namespace

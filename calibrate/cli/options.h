@@ -12,29 +12,29 @@
 
 namespace pastefit {
 
-/// Checks of the number behind an option, before it is read: no more and no less than a finite number in its range. The
-/// fault says what stands there, cut if long, and what would be right.
+/// Validators of numeric options, applied before conversion: a single finite number in its range. The fault shows the
+/// text, truncated if long, and the correct form.
 
-/// Above 0, and no more than anyone could wait for or look at: 1e9.
+/// Above 0 and at most 1e9, beyond any useful duration or size.
 CLI::Validator positive_number();
 
 /// From `smallest` to `largest`.
 CLI::Validator number_from(double smallest, double largest);
 
-/// A whole number without sign, from `smallest` to `largest`.
+/// Unsigned integer from `smallest` to `largest`.
 CLI::Validator whole_number(std::uint64_t smallest = 0,
                             std::uint64_t largest = std::numeric_limits<std::uint64_t>::max());
 
-/// The fault of a command that would compute for more than a day: `processor_s` at least, on so many threads (0: one
-/// for each processor). `work`: what takes it, e.g. "7.6e+06 grains". Empty with `force`, and where it takes no more;
-/// what takes more than an hour is then said on standard error.
+/// Fault of a command with an estimated run time of more than a day: at least `processor_s`, on `threads` threads (0:
+/// one per processor). `work`: the cause, e.g. "7.6e+06 grains". Empty with `force`, and for shorter runs; above one
+/// hour, a note with the estimate is printed to standard error.
 Faults long_run_faults(const std::string& where, const std::string& work, double processor_s, int threads, bool force,
                        const std::string& remedy);
 
-/// The fault of pictures that do not fit on the disk of a folder, which need not be there yet. Empty with `force`.
+/// Fault of pictures that exceed the free disk space of a folder, which may not exist yet. Empty with `force`.
 Faults picture_faults(const std::filesystem::path& folder, double pictures, double grains, bool force);
 
-/// Adds --threads to a verb; more than this machine has processors are as many as that, with a word.
+/// Adds --threads to a verb; numbers above the processor count are reduced to it, with a note.
 inline void add_threads(CLI::App& verb, int& threads,
                         const std::string& meaning = "simulations at the same time; default: one for each processor") {
   verb.add_option("--threads", threads, meaning)

@@ -66,18 +66,18 @@ nlohmann::ordered_json prediction_json(const Prediction& found, std::size_t mate
   return out;
 }
 
-/// A reading of a preset that a laboratory could take next.
+/// Reading of a preset, as a candidate for the next measurement.
 struct NextReading {
   std::string preset;
   ReadingPrediction reading;
 };
 
 struct NextTests {
-  std::vector<NextReading> readings;                          ///< what tells the materials apart best first
-  std::vector<std::pair<std::string, std::string>> left_out;  ///< presets, and why they were not predicted
+  std::vector<NextReading> readings;                          ///< most discriminating first
+  std::vector<std::pair<std::string, std::string>> left_out;  ///< presets, and the reason
 };
 
-constexpr double worth_taking = 0.7;  // width left above which a reading is not worth a test
+constexpr double worth_taking = 0.7;  // largest remaining width for which a test is worthwhile
 
 std::string next_table(const NextTests& next) {
   std::string out = format("%-18s %-26s %17s %11s\n", "Measure next", "reading", "materials", "width left");
@@ -107,7 +107,7 @@ nlohmann::ordered_json next_json(const NextTests& next) {
   return out;
 }
 
-/// A calibration and the materials that fit its readings.
+/// Calibration with the materials that fit its readings.
 struct Family {
   Card card;
   std::vector<std::vector<double>> materials;
@@ -129,7 +129,7 @@ Family fitting_materials(const std::string& folder) {
   return family;
 }
 
-/// Unless a test cannot be predicted, or takes too long.
+/// Refuses tests that cannot be predicted, or take too long.
 void check_effort(const Family& family, const Test& other, const PredictOptions& options, int tests = 1) {
   const Test test = with_material_of(family.card, other);
   refuse(validate(test));
@@ -139,7 +139,7 @@ void check_effort(const Family& family, const Test& other, const PredictOptions&
                          options.threads, options.force, "fewer --packings"));
 }
 
-/// What each preset would leave, and which of its readings tell the materials apart.
+/// Predicts the readings of each preset, and their discrimination between the materials.
 int predict_presets(const Family& family, const PredictOptions& options) {
   NextTests next;
   std::vector<std::pair<std::string, Test>> tests;
@@ -147,7 +147,7 @@ int predict_presets(const Family& family, const PredictOptions& options) {
   for (const std::string& name : preset_names(".")) {
     const Test test = test_of_preset(name, family.card);
     if (const auto same = std::ranges::find(described, to_json(test)); same != described.end()) {
-      tests[static_cast<std::size_t>(same - described.begin())].first = name;  // two names of one rig
+      tests[static_cast<std::size_t>(same - described.begin())].first = name;  // second name of the same apparatus
       continue;
     }
     if (const auto faults = validate(with_material_of(family.card, test)); !faults.empty()) {

@@ -21,9 +21,9 @@ namespace {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-constexpr int kNotStarted = 127;  // as a shell says it
+constexpr int kNotStarted = 127;  // same as in shells
 
-/// What is in the file, from its beginning.
+/// Whole content of the file.
 std::string content_of(int file) {
   std::string out;
   std::array<char, 1 << 16> part{};
@@ -33,8 +33,8 @@ std::string content_of(int file) {
   return out;
 }
 
-/// Waits for the child. Its own handler takes each signal once: who types Ctrl-C sends SIGINT to both, and Slurm
-/// SIGTERM, so that SIGHUP is the one that it has not had.
+/// Waits for the child. Its handler accepts each signal once. Ctrl-C (SIGINT) and Slurm (SIGTERM) already signal both
+/// processes, so SIGHUP is the one still available.
 int wait_for(pid_t child, const std::atomic<bool>& stop, const std::function<void()>& meanwhile) {
   bool told = false;
   int state = 0;
@@ -51,7 +51,7 @@ int wait_for(pid_t child, const std::atomic<bool>& stop, const std::function<voi
   }
 }
 
-/// Starts a process that calls `become`, which does not come back, and waits for its end.
+/// Forks a process that calls `become`, which must not return, and waits for its end.
 template <class Become>
 ChildEnd run_child(int output, const std::atomic<bool>& stop, const std::function<void()>& meanwhile, Become become) {
   const pid_t parent = ::getpid(), child = ::fork();

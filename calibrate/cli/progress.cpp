@@ -37,11 +37,11 @@ void StatusLine::keep() {
 
 namespace {
 
-/// Where a single simulation is.
+/// Progress of a single simulation.
 class SignOfLife {
  public:
   void show(const Snapshot& snapshot) {
-    // A test may come to a phase again, in a world whose time is an earlier one.
+    // Phases may repeat, in a world with an earlier time.
     if (snapshot.phase != phase_ || snapshot.time_s < last_s_) {
       phase_ = snapshot.phase;
       phase_start_wall_s_ = line_.gone_s();
@@ -56,7 +56,7 @@ class SignOfLife {
   }
 
  private:
-  /// In words; nothing while the phase is too young to know.
+  /// Remaining time as text; empty at the beginning of a phase.
   std::string time_left(const Snapshot& snapshot) const {
     constexpr double enough_s = 0.5;
     const double taken_s = line_.gone_s() - phase_start_wall_s_;
@@ -68,7 +68,7 @@ class SignOfLife {
 
   StatusLine line_;
   std::string phase_;
-  double phase_start_wall_s_ = 0, phase_start_s_ = 0;  // simulated, the second
+  double phase_start_wall_s_ = 0, phase_start_s_ = 0;  // the second is simulated time
   double last_s_ = 0;
 };
 
@@ -91,7 +91,7 @@ void WorkLine::one_done() {
 void WorkLine::look() {
   line_.look([this] {
     const int done = done_, left = std::max(0, total_ - done);
-    // Those under way are as good as begun: at least what is left without them, at most all that is.
+    // Running pieces count as begun: lower limit without them, upper limit with all of them.
     const double each_s = done > 0 ? line_.gone_s() / done : 0;
     return fitted({format("%d of %d %s", done, total_, pieces_.c_str()), format("%.0f s gone", line_.gone_s()),
                    done > 0 && left > 0 ? range_of_time(std::max(0, left - 1) * each_s, left * each_s) + " left" : ""});
@@ -169,7 +169,7 @@ std::string ProgressLine::text() const {
   return line;
 }
 
-/// How much of the budget is used, as a bar of at most so many columns; none where that is too few to be told.
+/// Used fraction of the budget as a bar of at most `columns`; empty if there is too little room.
 std::string ProgressLine::bar(std::size_t columns) const {
   constexpr std::size_t kMost = 24, kLeast = 6, kFrame = 3;  // a blank and the brackets
   if (columns < kLeast + kFrame || work_.budget <= 0) return "";

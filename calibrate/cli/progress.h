@@ -13,25 +13,25 @@
 
 namespace pastefit {
 
-/// Where some work is, on standard error: one line that is rewritten in place on a terminal, else a plain line now and
-/// then. Nothing while the program is quiet. Thread-safe.
+/// Progress on standard error: one line, rewritten in place on a terminal, otherwise a plain line at intervals. Silent
+/// in quiet mode. Thread-safe.
 class StatusLine {
  public:
   using Clock = std::chrono::steady_clock;
-  /// The first line is due after this time, another one after 0.2 s on a terminal, after 4 s elsewhere.
+  /// Shows the first line after `first`, the next after 0.2 s on a terminal, 4 s elsewhere.
   explicit StatusLine(Clock::duration first = std::chrono::seconds(2));
   ~StatusLine() { clear(); }
 
   bool is_terminal() const { return terminal_; }
   double gone_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  /// Shows what `text()` says, if a line is due or is to come at once.
+  /// Shows `text()` if a line is due, or if `at_once`.
   template <class Text>
   void look(Text text, bool at_once = false) {
     const std::lock_guard lock(mutex_);
     if (at_once || Clock::now() >= next_) show(text());
   }
-  void clear();  ///< takes a rewritten line away
-  void keep();   ///< leaves it as it is, and goes on below
+  void clear();  ///< removes a rewritten line
+  void keep();   ///< keeps it and continues below
 
  private:
   void show(const std::string& line);
@@ -43,20 +43,20 @@ class StatusLine {
   std::string shown_;
 };
 
-/// Options of a run that shows where it is, as long as they live, and ends when `stop` becomes true, which has to
-/// outlive them. The time that is left is that of the phase, a range at its rate so far. Of the whole test there is
-/// none: a heap rests when it does, and each phase has a pace of its own.
+/// Run options with progress output, shown during their lifetime; the run ends when `stop`, which must outlive them,
+/// becomes true. The remaining time is that of the current phase, a range at its rate so far. There is no estimate for
+/// the whole test: phases differ in speed, and the time to rest is not known in advance.
 RunOptions shown_run(const std::atomic<bool>* stop = nullptr);
 
-/// Tells how many of some pieces of work are done and what is left of them (`StatusLine`). Thread-safe.
+/// Progress of a number of pieces of work (`StatusLine`). Thread-safe.
 class WorkLine {
  public:
-  /// `pieces`: what they are, e.g. "simulations".
+  /// `pieces`: plural noun, e.g. "simulations".
   WorkLine(std::string pieces, int total) : pieces_(std::move(pieces)), total_(total) {}
 
   void one_done();
-  void look();  ///< to be called now and then while a piece is under way
-  /// Leaves the line of a terminal to what is printed next.
+  void look();  ///< call from time to time during a piece
+  /// Removes the line before other output.
   void clear() { line_.clear(); }
 
  private:
@@ -66,28 +66,27 @@ class WorkLine {
   StatusLine line_;
 };
 
-/// An engine whose simulations are the pieces of this work, which it must not outlive.
+/// Engine that counts its simulations in `line`, which must outlive it.
 CheckEngine counted(CheckEngine engine, WorkLine& line);
 
-/// Simulations of a calibration, in every test that is fitted.
+/// Numbers of simulations of a calibration, over all fitted tests.
 struct WorkAhead {
-  int budget = 0;        ///< at most, in all
+  int budget = 0;        ///< largest total
   int screening = 0;     ///< before the search
-  int confirmation = 0;  ///< of a candidate that holds
-  int examination = 0;   ///< after the search, hold-outs included
+  int confirmation = 0;  ///< of a candidate that is confirmed
+  int examination = 0;   ///< after the search, including held-out tests
 };
 
-/// Live progress (`StatusLine`): on a terminal a line cut to its width, with a bar where there is room; elsewhere
-/// one of at most 80 columns at the start of each phase and every few seconds. Thread-safe.
-///
-/// The time that is left is a range: from what the phases still have to do if the next candidate holds, to what the
-/// budget allows, both at the rate of simulations so far.
+/// Progress of a calibration (`StatusLine`): on a terminal, a line cut to its width, with a bar if there is room;
+/// elsewhere at most 80 columns, at the start of each phase and every few seconds. Thread-safe. The remaining time is a
+/// range: from the rest of the phases if the next candidate is confirmed, to the rest of the budget, both at the mean
+/// rate.
 class ProgressLine {
  public:
   ProgressLine(const WorkAhead& work, const ErrorUnit& unit);
   void show(const Progress& progress);        ///< from the search
   void show(const EvaluationCounts& counts);  ///< after each simulation
-  void look();                                ///< now and then during one
+  void look();                                ///< from time to time during a simulation
   void end();                                 ///< ends the rewritten line
 
  private:
@@ -101,7 +100,7 @@ class ProgressLine {
   const ErrorUnit unit_;
   std::mutex mutex_;
   std::string phase_ = "start";
-  int done_before_ = 0;  // the phase
+  int done_before_ = 0;  // before the current phase
   double best_error_ = -1;
   EvaluationCounts counts_;
 };

@@ -17,10 +17,10 @@ namespace pastefit {
 
 namespace {
 
-/// Probability to call a heap of the same material another one, a reading.
+/// False-alarm probability per reading for a heap of the same material.
 constexpr double kReadFalseAlarm = 0.05;
 
-/// The scatter of fewer heaps says next to nothing of another one.
+/// The scatter of fewer heaps is too uncertain.
 constexpr int kFewestPackings = 3;
 
 struct ReadOptions {
@@ -30,12 +30,12 @@ struct ReadOptions {
   bool json = false;
 };
 
-/// One reading of a dump beside what the card has of it.
+/// Reading of a dump, beside that of the card.
 struct HeapReading {
   std::string name;
   double read = 0;
-  const CardReading* of_card = nullptr;  ///< null: the card does not have it
-  std::optional<double> band;            ///< of |read - simulated| by the noise of packings; nothing: it is unknown
+  const CardReading* of_card = nullptr;  ///< null: not on the card
+  std::optional<double> band;            ///< of |read - simulated| by replicate scatter; may be unknown
 
   bool is_compared() const { return band.has_value(); }
   bool differs() const { return band && !lie_within(*band, read, of_card->simulated); }
@@ -80,7 +80,7 @@ std::string reading_table(const std::vector<HeapReading>& readings, const std::s
   return out;
 }
 
-/// Without anything to compare with, "agrees" is null.
+/// "agrees" is null without anything to compare with.
 nlohmann::ordered_json json_of(const std::vector<HeapReading>& readings, std::size_t packings,
                                std::optional<bool> agrees) {
   nlohmann::ordered_json out{

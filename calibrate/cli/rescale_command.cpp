@@ -40,7 +40,7 @@ int rescale(const RescaleOptions& options) {
     refuse(long_run_faults("--radius", format("%d simulations of each test", options.packings), effort_s,
                            options.check.threads, options.force, "larger grains, or fewer --packings"));
     const int simulations = options.packings * static_cast<int>(card.tests.size());
-    // Grains in a full mould go with 1/R^3, steps of time with 1/R.
+    // The number of grains scales with 1/R^3, that of steps with 1/R.
     note("measuring the bias: %d simulations with either size, %.3g times the work with the new one\n", simulations,
          std::pow(card.material.grains.radius_m / radius, 4));
     WorkLine line("simulations", 2 * simulations);

@@ -54,7 +54,7 @@ Faults checkpoint_faults(const SimulateOptions& options, const Scene& scene) {
   return output_file_faults("--checkpoint", options.checkpoint, true);
 }
 
-/// What the run would take of time and, with pictures, of the disk beyond what anyone asks for by chance.
+/// Faults of an excessive run time or, with pictures, disk usage.
 Faults effort_faults(const SimulateOptions& options, const Scene& scene) {
   double pictures = 0, grains = 1;
   if (const auto* test = std::get_if<Test>(&scene)) {
@@ -75,7 +75,7 @@ Faults effort_faults(const SimulateOptions& options, const Scene& scene) {
   return options.vtk_interval_s ? picture_faults(options.out, pictures, grains, options.force) : Faults{};
 }
 
-/// The scene of the file, with what a person should know of it said on standard error.
+/// Reads the scene, and prints notes on it to standard error.
 Scene scene_of(const SimulateOptions& options) {
   auto [scene, notes] = value_or_throw(read_scene(options.file, options.settings, options.test));
   for (const std::string& remark : notes) note("pastefit: %s\n", remark.c_str());
@@ -88,7 +88,7 @@ Scene scene_of(const SimulateOptions& options) {
   return scene;
 }
 
-/// Options that do not go with each other or with the scene.
+/// Conflicts between options, or with the scene.
 Faults option_faults(const SimulateOptions& options, const Scene& scene) {
   if (options.vtk_interval_s && options.out.empty()) return {{"--vtk", "has no folder to write to", "add --out DIR"}};
   if (auto faults = effort_faults(options, scene); !faults.empty()) return faults;
@@ -105,9 +105,8 @@ nlohmann::ordered_json outlines_json(const std::map<std::string_view, Outline>& 
   return out;
 }
 
-/// Readings and run as JSON text, with the yield stresses that the readings say (`test`: nothing for an impact).
-/// `outlines`: of the heap, by name, written as the points of a profile in a laboratory file: {"step1": [[x_mm, z_mm],
-/// ...], ...}.
+/// Readings and run as JSON text, with the yield stresses from the readings (`test`: null for an impact). `outlines`:
+/// by name, as the points of a profile in a laboratory file: {"step1": [[x_mm, z_mm], ...], ...}.
 std::string simulation_json(const Outcome& outcome, const Test* test,
                             const std::map<std::string_view, Outline>& outlines, double wall_s) {
   const auto& run = outcome.run;
@@ -130,7 +129,7 @@ std::string simulation_json(const Outcome& outcome, const Test* test,
   return json_text(out);
 }
 
-/// The same for people, without outlines. `packed`: it was of a random packing.
+/// The same as text, without outlines. `packed`: the packing was random.
 void print_simulation(const Outcome& outcome, double wall_s, bool packed) {
   for (const auto& [name, value] : outcome.readings.all()) print("%-26s %12.6g\n", name.c_str(), value);
   if (packed && !outcome.failure) print("One packing, error unknown: other packings (--seed) read differently.\n");
@@ -141,21 +140,21 @@ void print_simulation(const Outcome& outcome, double wall_s, bool packed) {
         run.settled || outcome.failure ? "" : "; not quite at rest when its time was over");
 }
 
-/// One line for each point, below the names of the axes.
+/// One line per point below the axis names.
 std::string csv_of(const Curve& curve) {
   std::string out = curve.x + "," + curve.y + "\n";
   for (const CurvePoint& point : curve.points) out += format("%.6g,%.6g\n", point.x, point.y);
   return out;
 }
 
-/// Says whether the step that the user has set is a stable one.
+/// Prints whether the given step is stable.
 void judge_step(double given_s, double advised_s) {
   const bool stable = given_s <= advised_s;
   note("pastefit: the time step %.3g s %s the advised %.3g s%s\n", given_s, stable ? "is within" : "exceeds", advised_s,
        stable ? "" : ": the result may be wrong; leave --time-step out, or give at most that");
 }
 
-/// One simulation, with what watches it and what is written of it.
+/// One simulation with its observers and outputs.
 class Simulation {
  public:
   Simulation(const SimulateOptions& options, const Scene& scene)
@@ -164,7 +163,7 @@ class Simulation {
     run_.steps.threads = options.threads;
   }
 
-  /// Returns the exit status. Refused if the state that it goes on from, or the folder for its results, cannot be used.
+  /// Returns the exit status. Refused if the saved state, or the result folder, is unusable.
   int run() {
     open_checkpoint();
     open_folder();
@@ -175,7 +174,7 @@ class Simulation {
     };
     const auto start = std::chrono::steady_clock::now();
     const Outcome outcome = saved_ ? value_or_throw(saved_->simulate(scene_, run_)) : simulate(scene_, run_);
-    run_.pulse = {};  // takes its line away
+    run_.pulse = {};  // removes its line
     const double wall_s =
         saved_ ? saved_->wall_s() : std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     refuse(unwritten_, kFailed);
@@ -211,7 +210,7 @@ class Simulation {
     return unwritten_.empty();
   }
 
-  /// Says and writes what came of the run.
+  /// Prints and writes the results.
   int close(const Outcome& outcome, double wall_s) {
     if (saved_ && outcome.failure && outcome.failure->reason == FailureReason::stopped) {
       std::fprintf(stderr, "pastefit: stopped in %s at %.4g s; the same command goes on from %s\n",
@@ -238,7 +237,7 @@ class Simulation {
     return kFailed;
   }
 
-  /// Readings, and the curve of a test that draws one; pictures are there already.
+  /// Writes readings and, if there is one, the curve; pictures are already written.
   void write(const Outcome& outcome, const std::string& text) const {
     folder_->clear({kCurve});
     refuse(write_atomically(folder_->file(kResult), text), kFailed);
@@ -251,14 +250,14 @@ class Simulation {
 
   const SimulateOptions& options_;
   const Scene& scene_;
-  const Test* test_;  ///< none for an impact
+  const Test* test_;  ///< null for an impact
   const std::atomic<bool>& stop_ = listen_for_stop();
   RunOptions run_;
   std::optional<SavedRun> saved_;
   std::optional<OutputFolder> folder_;
   std::optional<RunPictures> pictures_;
   std::map<std::string_view, Outline> outlines_;
-  Faults unwritten_;  ///< pictures
+  Faults unwritten_;  ///< faults of pictures
 };
 
 int simulate_file(const SimulateOptions& options) {

@@ -11,7 +11,7 @@ namespace pastefit {
 
 namespace {
 
-/// What a picture is made of, each a series of its own: the name of that of the grains, and what is added to it.
+/// Layers of a picture, one series each: suffixes of the name of the grains' series.
 constexpr std::array<std::string_view, 3> kLayers{"", "-links", "-walls"};
 
 std::vector<std::string> names_of_stages(const Scene& scene) {
@@ -44,7 +44,7 @@ std::vector<std::string> RunPictures::index_names(const Scene& scene) {
 
 Faults RunPictures::add(const Snapshot& snapshot) {
   Stage& stage = stages_.at(stage_of(scene_, snapshot));
-  // A stage may be several runs, one after the other.
+  // A stage may consist of several consecutive runs.
   if (snapshot.time_s < stage.last_s) stage.earlier_s += stage.last_s;
   stage.last_s = snapshot.time_s;
   stage.begun = true;

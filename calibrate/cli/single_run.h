@@ -16,20 +16,20 @@
 
 namespace pastefit {
 
-/// Pictures of a run for ParaView: grains, links and walls. A test has a series for each of its stages, with a clock
-/// that starts where the first moment of it says; an impact has one.
+/// ParaView pictures of a run: grains, links and walls. A test has one series per stage, whose clock starts at its
+/// first snapshot; an impact has one series.
 class RunPictures {
  public:
-  /// `scene` has to outlive the pictures. Nothing is written yet.
+  /// `scene` must outlive the pictures. Writes nothing yet.
   RunPictures(const std::filesystem::path& folder, const Scene& scene);
 
-  /// The index files of all series that a scene may have, by name.
+  /// Names of the index files of all possible series.
   static std::vector<std::string> index_names(const Scene& scene);
 
-  /// Writes the pictures of a moment. Errors: a file cannot be written.
+  /// Writes the pictures of a snapshot. Errors: a file cannot be written.
   Faults add(const Snapshot& snapshot);
 
-  /// The index files that were written.
+  /// Index files that were written.
   std::vector<std::filesystem::path> indices() const;
 
  private:
@@ -43,22 +43,22 @@ class RunPictures {
   std::vector<Stage> stages_;
 };
 
-/// What a run leaves on the disk, every two minutes and when it is asked to stop, and goes on from.
+/// State of a run on disk, for continuation; saved every two minutes and on `stop`.
 class SavedRun {
  public:
-  /// `found`: what `file` held before. `stop` has to outlive the run.
+  /// `found`: previous content of `file`. `stop` must outlive the run.
   SavedRun(Checkpoint file, RunState found, const std::atomic<bool>& stop)
       : file_(std::move(file)), found_(std::move(found)), stop_(stop) {}
 
   bool goes_on() const { return !found_.bytes.empty(); }
-  /// For `RunOptions`, once; the saved run has to stay where it is. Errors: what was found is no state.
+  /// Checkpoint for `RunOptions`; call once, and do not move this object afterwards. Errors: invalid state.
   Result<std::shared_ptr<RunCheckpoint>> checkpoint();
-  /// The outcome of the scene with that checkpoint. Errors: what was found is no state of this run, though it is what
-  /// was written: it was made by hand.
+  /// Simulates the scene with that checkpoint. Errors: a valid checksum, but no state of this run: the file was made by
+  /// hand.
   Result<Outcome> simulate(const Scene& scene, const RunOptions& run) const;
 
   const Faults& unwritten() const { return unwritten_; }
-  /// All sessions together.
+  /// Sum over all sessions.
   double wall_s() const { return found_.wall_s + std::chrono::duration<double>(Clock::now() - start_).count(); }
   void remove() const { file_.remove(); }
 

@@ -15,8 +15,8 @@ struct TemplateOptions {
   std::string name, target, law, mould;
 };
 
-/// The starting files of a mould for dry materials; of another one its laboratory file, and the study of every slump
-/// test.
+/// Starting files of a mould for dry materials; for other moulds, its laboratory file and the common study of slump
+/// tests.
 std::string template_of_mould(const TemplateOptions& options) {
   if (auto own = template_text_of_mould(options.name, options.mould)) return *own;
   if (options.name != "lab" && options.name != "study")

@@ -30,7 +30,7 @@ std::string time_in_words(double seconds) {
   return "years";
 }
 
-int first_error = 0;  // of writing to standard output
+int first_error = 0;  // on writing to standard output
 bool quiet = false;
 
 void note_error(bool failed) {
@@ -64,7 +64,7 @@ std::string for_terminal(const std::string& text) {
 }
 
 std::string fitted(const std::vector<std::string>& parts) {
-  const std::size_t most = columns() - 1;  // the last column would begin a new line
+  const std::size_t most = columns() - 1;  // the last column would wrap
   std::string line = parts.front().substr(0, most);
   for (std::size_t i = 1; i < parts.size(); ++i)
     if (!parts[i].empty() && line.size() + 2 + parts[i].size() <= most) line += ", " + parts[i];
@@ -91,7 +91,7 @@ void note(const char* pattern, ...) {
   va_list values;
   va_start(values, pattern);
   if (!quiet) {
-    note_error(std::fflush(stdout) != 0);  // where both go to one place, in the order in which they were said
+    note_error(std::fflush(stdout) != 0);  // keeps the order if both streams share a target
     std::fputs(for_terminal(harmless(pattern, values)).c_str(), stderr);
   }
   va_end(values);
@@ -107,10 +107,10 @@ bool is_quiet() {
 
 void guard_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (::fcntl(stream, F_GETFD) < 0)  // for standard output: so that writing to it fails
+    if (::fcntl(stream, F_GETFD) < 0)  // so that writing to standard output fails
       static_cast<void>(::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY));
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // beyond a limit on file sizes writing fails, which is told
+  std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a file size limit fails, which is reported
 }
 
 int after_output(int status) {

@@ -43,15 +43,15 @@ std::string readings_to_be_met(const Study& study) {
   return out;
 }
 
-/// What one simulation of the test takes on this machine [s]: measured with few, coarse grains of it, since the number
-/// of grains goes with 1/R^3 and that of steps with 1/R. Nothing if that could not be simulated.
+/// Run time [s] of one simulation of the test on this machine: measured with few, coarse grains, and scaled, since the
+/// number of grains goes with 1/R^3 and that of steps with 1/R. Nothing if that simulation fails.
 std::optional<double> seconds_of_simulation(const Test& test) {
   constexpr double few = 300;  // grains
   constexpr double largest_enlargement = 30, patience_s = 2;
   Test coarse = test;
   GrainSizes& grains = specimen_of(coarse).grains;
   const double wanted = std::cbrt(grains_needed(test) / few);
-  // As coarse as the apparatus takes.
+  // As coarse as the apparatus permits.
   double enlarged = std::clamp(wanted, 1.0, largest_enlargement);
   const GrainSizes own = grains;
   for (;; enlarged = std::max(1.0, 0.9 * enlarged)) {
@@ -91,7 +91,7 @@ std::string time_expected(const Study& study, int threads) {
                 search.budget_simulations, plain(one_s, 2).c_str(), at_once);
 }
 
-/// Free parameters of which the fitted readings of no test say anything.
+/// Free parameters that no fitted reading identifies.
 std::string unseen_parameters(const Study& study) {
   std::vector<std::string_view> free;
   for (const Parameter& parameter : study.parameters)
@@ -121,7 +121,7 @@ int prior_count(const Study& study) {
       std::ranges::count_if(study.parameters, [](const Parameter& parameter) { return parameter.prior.has_value(); }));
 }
 
-/// What has changed since the evaluations were made, and how many of them still hold.
+/// Changes since the evaluations were made, and the number of those still valid.
 std::string changes_in(const Study& study, const Store& store) {
   if (store.changes().empty()) return "";
   return "Changed since the last run: " + changed_places(store) + ". " +
@@ -129,7 +129,7 @@ std::string changes_in(const Study& study, const Store& store) {
          " candidates are known from before within the present bounds; they do not count in the budget.\n";
 }
 
-/// What the study weighs or allows of readings that the laboratory did not take.
+/// Readings with a weight or tolerance in the study, but without a measurement.
 std::string readings_not_measured(const Study& study) {
   std::string names;
   for (const StudyTest& test : study.tests)

@@ -7,18 +7,18 @@
 
 namespace pastefit {
 
-/// Apparatus and grains of a test as the program took them, a line each.
+/// Apparatus and grains of a test as the program read them, one line each.
 std::string apparatus_in_words(const Test& test);
 
-/// What a calibration will do: apparatus, grains, readings to be met, time expected; and free parameters of which the
-/// readings say nothing. Lines, each ended.
+/// Plan of a calibration: apparatus, grains, target readings, expected time, and free parameters that the readings do
+/// not identify. Terminated lines.
 std::string understood(const Study& study, int threads = 0);
 
-/// What the laboratories' readings look like, taken together, and what was assumed of their tests; a line each.
+/// Remarks on the readings of a study, and assumptions on its tests; one line each.
 std::string notes_on_readings(const Study& study);
 
-/// Tells a person of a study before anything of it runs: what was understood, what is known from before and what has
-/// changed since, what is odd about the readings. `file`: the store's.
+/// Prints the plan of a study before any simulation, with stored results, changes since then, and suspicious readings.
+/// `file`: name of the store.
 void print_remarks(const Study& study, const Store& store, const std::string& file, int threads);
 
 }  // namespace pastefit

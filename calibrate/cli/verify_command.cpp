@@ -27,7 +27,7 @@ void print_row(const std::string& name, const CheckRow& row, std::size_t points)
         row.expected, row.got, row.error, row.tolerance, std::string(name_of(row.verdict)).c_str(), at.c_str());
 }
 
-/// The reasons for what is not a pass, each once.
+/// Prints the reason of each check that did not pass; equal ones once.
 void print_notes(const std::vector<CheckRow>& rows) {
   std::set<std::string> told;
   for (const CheckRow& row : rows)
