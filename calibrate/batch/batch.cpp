@@ -92,7 +92,7 @@ std::optional<BatchFailure> read_failure(const BatchStudy& one) {
 
 namespace {
 
-/// What both scripts begin with.
+/// Beginning of both scripts.
 std::string heading_of_job(const ArrayJob& job, const std::string& meaning, const std::string& name) {
   return "#!/bin/bash\n# " + meaning + " Written by pastefit " + program_version() +
          ".\n# Time limit, partition, account and memory: options of sbatch, or further #SBATCH lines.\n#SBATCH "
@@ -106,8 +106,7 @@ std::string studies_of(const ArrayJob& job) {
   return out + ")\n";
 }
 
-/// A file that Slurm writes the output to, in whose name it replaces %a by the element's number. A % of the folder's
-/// own name is doubled.
+/// Output option of Slurm, which replaces %a by the number of the element; % in the folder's name is doubled.
 std::string output_line(const ArrayJob& job, const std::string& name) {
   std::string folder;
   for (const char letter : job.out.string()) folder += letter == '%' ? std::string("%%") : std::string(1, letter);

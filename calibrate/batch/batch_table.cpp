@@ -20,8 +20,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Of the packings that confirmed the card, how many a laboratory would have rejected in some fitted test; nothing if
-/// its tests are of kinds of which none is.
+/// Rejected fraction of the confirmation packings over all fitted tests; nothing for kinds of tests without rejection.
 ordered_json sheared_share_of(const Card& card) {
   bool known = false;
   std::size_t runs = 0;
@@ -60,7 +59,7 @@ ordered_json reading_columns(const Card& card) {
   return out;
 }
 
-/// Each fitted parameter and its 95 % interval, where that is known, and which of its ends the readings do not set.
+/// Fitted parameters with their 95 % intervals, if known, and the ends that the readings do not determine.
 ordered_json parameter_columns(const Card& card) {
   auto out = ordered_json::object();
   for (const Parameter& one : card.material.parameters) {
@@ -85,7 +84,7 @@ std::string reasons_of(const Card& card) {
   return out;
 }
 
-/// What the store says was spent.
+/// Simulations and processor time in the store.
 ordered_json spent_on(const BatchStudy& one) {
   std::size_t simulations = 0;
   double core_s = 0;
@@ -97,7 +96,7 @@ ordered_json spent_on(const BatchStudy& one) {
   return {{"simulations", simulations}, {"coarse_simulations", 0}, {"core_s", core_s}};
 }
 
-/// The text as one cell. A spreadsheet would compute one that begins as a formula does: it gets an apostrophe.
+/// Text as one cell. An apostrophe protects texts that spreadsheets would evaluate as formulas.
 std::string quoted(const std::string& text) {
   std::string line = one_line(text);
   if (!line.empty() && std::string_view("=+-@").find(line[0]) != std::string_view::npos) line.insert(0, 1, '\'');
@@ -111,7 +110,7 @@ std::string csv_cell(const ordered_json& value) {
   return value.is_null() ? "" : value.is_string() ? quoted(value.get<std::string>()) : value.dump();
 }
 
-/// The columns of all rows, each once, in the order in which they appear first.
+/// Columns of all rows, in order of first appearance.
 std::array<std::vector<std::string>, 5> columns_of(const std::vector<BatchRow>& rows) {
   std::array<std::vector<std::string>, 5> names;
   for (const BatchRow& row : rows)
@@ -121,7 +120,7 @@ std::array<std::vector<std::string>, 5> columns_of(const std::vector<BatchRow>& 
   return names;
 }
 
-/// Each column's name and what the row has in it, null where it has not that column.
+/// Calls `see` for each column with the row's value, or null.
 template <class See>
 void see_cells(const BatchRow& row, const std::array<std::vector<std::string>, 5>& columns, See see) {
   for (std::size_t part = 0; part < columns.size(); ++part)
@@ -181,7 +180,7 @@ std::string batch_csv(const std::vector<BatchRow>& rows) {
 
 namespace {
 
-/// How bad a verdict is, from the worst; then come those with reservations, and the others.
+/// Rank of a verdict, worst first; then those with reservations, then the others.
 std::ptrdiff_t rank_of(const BatchRow& row) {
   constexpr std::array verdicts{"failed", "out_of_reach", "unconfirmed", "stopped", "unfinished", "pending"};
   const auto found = std::ranges::find(verdicts, row.verdict);
@@ -205,7 +204,7 @@ a { color: var(--simulation); }
 .measured { color: var(--laboratory); } .simulated { color: var(--simulation); }
 )";
 
-/// A folder's name as part of a link.
+/// URL-encodes a folder name.
 std::string in_link(const std::string& name) {
   std::string out;
   for (const char letter : name) {

@@ -27,7 +27,7 @@ Answers::Answers(const std::vector<Parameter>& parameters, const std::vector<Stu
 
 namespace {
 
-/// Readings of a test, under the names that it has for them.
+/// Readings of one test under its own names.
 Readings readings_of_test(const StudyTest& test, const Readings& of_study) {
   const std::string before = reading_name(test, "");
   Readings out;
@@ -101,7 +101,7 @@ class StudyAnswers : public Answers {
     return out;
   }
 
-  /// One for each fitted test.
+  /// `evaluations`: one for each fitted test.
   Evaluation merged_evaluation(const UnitPoint& point, const std::vector<StoredEvaluation>& evaluations) const {
     Evaluation out = scoring_.evaluation_of(point, merged(*study_, scoring_.fitted_tests(), evaluations));
     out.simulations = scoring_.simulations_each();

@@ -14,11 +14,10 @@ namespace pastefit::python {
 
 using nlohmann::ordered_json;
 
-/// An `Examination` whose simulations run in another engine: its candidates are suggested and answered as those of a
-/// search are.
+/// `Examination` with an external simulator: its candidates are suggested and answered like those of a search.
 class AskedExamination {
  public:
-  /// Requirements: those of `Examination`; answers and calibration outlive it.
+  /// Requirements: those of `Examination`; answers and calibration must outlive it.
   AskedExamination(const Answers& answers, const Calibration& found, int simulations)
       : scoring_(answers.scoring()),
         queue_(scoring_, simulations, {}),
@@ -41,7 +40,7 @@ class AskedExamination {
   }
 
   bool finished() const { return finished_; }
-  /// Requirement: it has finished.
+  /// Requirement: the examination has finished.
   std::optional<Inference> inference() const { return examination_.result(); }
 
  private:
@@ -62,7 +61,7 @@ class AskedExamination {
   const Scoring& scoring_;
   CandidateQueue queue_;
   Examination examination_;
-  std::vector<std::size_t> awaited_;  // candidates, by their numbers
+  std::vector<std::size_t> awaited_;  // numbers of the pending candidates
   bool finished_ = false;
 };
 
@@ -108,7 +107,7 @@ std::vector<Candidate> AskedSearch::next(std::size_t count) {
   return candidates;
 }
 
-/// False as long as the search goes on, and if there is nothing to examine.
+/// False during the search, and if there is nothing to examine.
 bool AskedSearch::begin_examination() {
   if (examination_) return true;
   if (!search_->finished() || stopped_) return false;
@@ -148,7 +147,7 @@ Faults AskedSearch::ingest(const std::vector<EngineAnswer>& answers) {
   if (!faults.empty()) return faults;
   for (const EngineAnswer& answer : answers) {
     const Candidate& candidate = asked_.at(answer.candidate);
-    if (answers_->find(candidate)) continue;  // twice
+    if (answers_->find(candidate)) continue;  // duplicate
     const auto kept = answers_->keep(candidate, answer);
     if (!kept.ok()) return kept.faults();
     counts_.simulated += kept.value().simulations;
@@ -161,7 +160,7 @@ void AskedSearch::tell(const Candidate& candidate, const Evaluation& evaluation)
   if (evaluation.failure) ++counts_.failures[evaluation.failure->reason];
   CandidateResult result{candidate.number, evaluation};
   if (!examination_) return search_->ingest({&result, 1});
-  if (result.candidate < asked_by_the_search_) return;  // it came too late
+  if (result.candidate < asked_by_the_search_) return;  // late answer to the search
   result.candidate -= asked_by_the_search_;
   examination_->ingest(result);
 }
@@ -176,7 +175,7 @@ bool AskedSearch::finished() {
   return search_->finished() && (!begin_examination() || examination_->finished());
 }
 
-/// Measured against simulated, as a card has it.
+/// Measured and simulated readings, as on a card.
 static ordered_json readings_json(const Scoring& scoring, const Response& shown,
                                   const std::vector<ReadingTrainingData>& evidence) {
   ordered_json out = ordered_json::array();

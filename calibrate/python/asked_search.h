@@ -19,24 +19,24 @@ namespace pastefit::python {
 
 class AskedExamination;
 
-/// A search whose simulations run in another engine. Every answer is kept before it is used, and what is known is not
-/// asked again, so that a search that was ended goes on where it was.
+/// Search with an external simulator. Every answer is stored before it is used, and stored answers are not requested
+/// again, so an interrupted search continues where it stopped.
 class AskedSearch {
  public:
   explicit AskedSearch(std::unique_ptr<Answers> answers);
   ~AskedSearch();
 
-  /// As `Search::suggest`, without those that are known.
+  /// As `Search::suggest`, without stored candidates.
   std::vector<Candidate> suggest(std::size_t count);
-  /// Errors: every answer to what was not suggested, or without a measured reading; nothing is then taken. One could
-  /// not be kept.
+  /// Takes answers. Errors: an answer to an unknown candidate, or without a measured reading (nothing is taken then);
+  /// an answer cannot be stored.
   Faults ingest(const std::vector<EngineAnswer>& answers);
-  /// The search ends with the best so far, and nothing is examined.
+  /// Ends the search with the best result so far, without examination.
   void stop();
-  /// Search and examination.
+  /// True after search and examination.
   bool finished();
 
-  /// As `result_json`, with "parameters" and "readings" of the candidate that it reports. Requirement: it has finished.
+  /// As `result_json`, with "parameters" and "readings" of the reported candidate. Requirement: `finished()`.
   nlohmann::ordered_json result();
 
   const Answers& answers() const { return *answers_; }
@@ -44,18 +44,18 @@ class AskedSearch {
 
  private:
   Faults faults_of(const EngineAnswer& answer, std::size_t place) const;
-  /// Candidates of the search, and once it has ended those that examine which other materials fit (`examine`).
+  /// Candidates of the search; after its end, those of the examination of other fitting materials (`examine`).
   std::vector<Candidate> next(std::size_t count);
   bool begin_examination();
   bool is_known(const Candidate& candidate);
   void tell(const Candidate& candidate, const Evaluation& evaluation);
 
   const std::unique_ptr<Answers> answers_;
-  std::map<std::size_t, Candidate> asked_;  // of those that were suggested
+  std::map<std::size_t, Candidate> asked_;  // suggested candidates
   EvaluationCounts counts_;
   bool stopped_ = false;
-  Calibration found_;                    // once the search has finished
-  std::size_t asked_by_the_search_ = 0;  // candidates; those of the examination are numbered after them
+  Calibration found_;                    // after the search
+  std::size_t asked_by_the_search_ = 0;  // number of candidates; those of the examination are numbered after them
   mutable std::mutex mutex_;             // guards what follows
   Progress progress_;
   std::string phase_;

@@ -28,13 +28,13 @@ namespace {
 struct CalibrationOptions {
   std::string study_file, out;
   bool resume = false, force = false;
-  bool page = true;  ///< write the page, whose film may have to be simulated
+  bool page = true;  ///< write the page; its film may need a simulation
   int threads = 0;
   double wall_budget_s = 0;
 };
 
-/// One calibration into a folder, as `pastefit calibrate` makes it. Made, which finds everything wrong with the input,
-/// then `run` in a thread without the interpreter's lock; `progress` may be asked from another one meanwhile.
+/// Calibration into a folder, as by `pastefit calibrate`. The constructor validates the input; `run` is called without
+/// the interpreter's lock; `progress` may be called from another thread.
 class CalibrationRun {
  public:
   CalibrationRun(std::shared_ptr<Study> study, CalibrationOptions options, std::shared_ptr<Stop> stop,
@@ -103,7 +103,7 @@ class CalibrationRun {
   const CalibrationOptions options_;
   const std::shared_ptr<Stop> stop_;
   CalibrateOptions how_;
-  bool elsewhere_ = false;  // the simulations run on an executor
+  bool elsewhere_ = false;  // simulations run on an executor
   std::unique_ptr<OutputFolder> folder_;
   std::unique_ptr<Store> store_;
   CalibrationResult result_;

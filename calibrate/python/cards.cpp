@@ -26,7 +26,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// {"files": {name: content}, "notes": [...], "instructions"}; the notes for a person are one of the files.
+/// {"files": {name: content}, "notes": [...], "instructions"}; the notes are also one of the files.
 std::string export_json(const std::string& card_text, const std::string& target, const ExportRequest& request) {
   Faults faults;
   const auto exporter = exporter_named(target);
@@ -40,7 +40,7 @@ std::string export_json(const std::string& card_text, const std::string& target,
   return out.dump();
 }
 
-/// Every run looks whether somebody interrupts.
+/// Engine whose runs poll the stop flag.
 CheckEngine stoppable(std::shared_ptr<Stop> stop) {
   CheckEngine engine = CheckEngine::ours();
   engine.run = [stop = std::move(stop)](const Test& test, const RunOptions& options) {
@@ -60,7 +60,7 @@ std::string check_json(const std::string& card_text, const CheckOptions& options
   return to_json(std::vector<CheckedFile>{{"", answer}}).at("cards").at(0).dump();
 }
 
-/// The card's tests with other values of these parameters of its material.
+/// The card's tests with changed values of these material parameters.
 std::string tests_json(const std::string& card_text, const std::map<std::string, double>& parameters) {
   const Card card = value_or_throw(card_from_json(parsed(card_text)));
   std::vector<double> values = values_of(card.material);

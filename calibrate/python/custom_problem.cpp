@@ -75,7 +75,8 @@ std::vector<StudyReading> read_readings(ObjectReader& document) {
   return readings;
 }
 
-/// In a candidate, its answer and the table of evaluations all of these stand side by side, under their names.
+/// Faults of duplicate names: candidates, answers and the table of evaluations use parameters and readings side by
+/// side.
 Faults clashing_names(const CustomProblem& problem, std::span<const std::string> own) {
   Faults faults;
   const auto check = [&](const std::string& place, const std::string& name) {
@@ -99,7 +100,7 @@ std::string key_of_candidate(const Candidate& candidate) {
        candidate.packing}}.dump());
 }
 
-/// A candidate that failed is off by the measured value, or ten standard deviations if that is more.
+/// The error of a failed candidate is the measured value, or ten standard deviations if that is more.
 class ProblemScoring : public ReadingScoring {
  public:
   using ReadingScoring::ReadingScoring;
@@ -183,7 +184,7 @@ class ProblemAnswers : public Answers {
   }
 
  private:
-  /// Whether it has a coordinate for each parameter, and a number for each reading unless it failed.
+  /// True if it has a coordinate for each parameter and, unless it failed, a number for each reading.
   bool is_answer(const StoredEvaluation& kept) const {
     const auto is_there = [&](const StudyReading& reading) {
       return std::isfinite(kept.readings.find(reading.name).value_or(std::nan("")));

@@ -15,7 +15,7 @@
 
 namespace pastefit::python {
 
-/// What a study is for tests that pastefit does not know: parameters and readings of any name, and how to search.
+/// Calibration problem for tests unknown to pastefit: arbitrary parameters and readings, and search options.
 struct CustomProblem {
   std::string title;
   std::vector<Parameter> parameters;   ///< all free
@@ -25,13 +25,12 @@ struct CustomProblem {
 };
 
 /// Reads {"title", "parameters": {NAME: {"free", "scale", "prior"}}, "measurements": {NAME: {"value",
-/// "standard_deviation", "repeats"}}, "tolerances": {NAME: ...}, "weights": {NAME: ...}, "search"}, with the meaning
-/// that these have in laboratory and study files. A reading without a tolerance has its standard deviation as one.
-/// Errors: every fault, each with its place; a name that candidates, answers or evaluations have themselves (`own`).
+/// "standard_deviation", "repeats"}}, "tolerances": {NAME: ...}, "weights": {NAME: ...}, "search"}, as in laboratory
+/// and study files. Default tolerance: the standard deviation. Errors: every fault, with its place; names reserved by
+/// candidates, answers or evaluations (`own`).
 Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::span<const std::string> own);
 
-/// The answers to a problem, in the store of this file. Errors: those of `Store::open`; the file holds answers to
-/// another problem.
+/// Answers to a problem, stored in `file`. Errors: those of `Store::open`; the store belongs to another problem.
 Result<std::unique_ptr<Answers>> answers_to_problem(CustomProblem problem, const std::string& file,
                                                     const std::string& engine);
 

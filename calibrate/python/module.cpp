@@ -12,7 +12,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// A `Refusal` becomes one `pastefit.InputError` that holds all faults.
+/// Translates a `Refusal` into one `pastefit.InputError` with all faults.
 void translate_refusals() {
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
@@ -32,8 +32,8 @@ void translate_refusals() {
 
 }  // namespace pastefit::python
 
-// What crosses between C++ and Python: positions and radii as views of memory, everything else as the JSON text that it
-// has in files. The package pastefit (calibrate/python/pastefit) is what users see.
+// Positions and radii cross the interface as memory views, everything else as JSON text in the format of files. Users
+// see the package pastefit (calibrate/python/pastefit).
 PYBIND11_MODULE(_core, module) {
   using namespace pastefit;
   python::translate_refusals();

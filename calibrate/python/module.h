@@ -18,15 +18,15 @@
 
 namespace pastefit::python {
 
-/// What a person who interrupts sets; a run looks at it now and then. Python holds it as `_core.Stop`.
+/// Stop flag set on interruption and polled by runs; `_core.Stop` in Python.
 struct Stop {
   std::atomic<bool> asked = false;
 };
 
-/// The document of a text that Python's json wrote.
+/// Parses the output of Python's json.
 nlohmann::json parsed(const std::string& text);
 
-/// {"title", "parameters", "readings", "budget_simulations", "screening"}: what a study or a problem fits, and to what.
+/// Description of a study or problem: {"title", "parameters", "readings", "budget_simulations", "screening"}.
 nlohmann::ordered_json description_json(const std::string& title, const std::vector<Parameter>& parameters,
                                         const std::vector<StudyReading>& readings, const SearchOptions& search);
 
@@ -39,20 +39,19 @@ void add_calibration(pybind11::module_& module);
 void add_search(pybind11::module_& module);
 void add_cards(pybind11::module_& module);
 
-/// The engine whose simulations run wherever `ask` takes them: `ask(task, goes_on)` gets what `simulate_task` is to be
-/// called with, and gives what it gave; nothing, if `goes_on()` became false and nobody waits any more.
-/// `name`: of this engine among those that run at the same time.
+/// Engine that simulates through `ask(task, goes_on)`, which receives the argument of `simulate_task` and returns its
+/// result; nothing if `goes_on()` became false. `name`: unique among engines running at the same time.
 Engine engine_of(pybind11::function ask, std::string name);
 
 /// {"status", "reason", "simulated", "known", "failures", "card", "summary", "intervals", "correlation"}
 nlohmann::ordered_json result_json(const CalibrationResult& result);
 
-/// One object for each evaluation, in the order of arrival: number, test's packing, parameters and readings by name.
+/// One object per evaluation, in order of arrival: number, test's packing, parameters and readings by name.
 nlohmann::ordered_json evaluations_json(const Store& store);
 nlohmann::ordered_json evaluation_json(std::size_t number, const StoredEvaluation& one,
                                        nlohmann::ordered_json parameters);
 
-/// Where a search is, for who asks from another thread.
+/// Progress of a search, for calls from another thread.
 nlohmann::ordered_json progress_json(const Progress& progress, const std::string& phase);
 
 }  // namespace pastefit::python

@@ -23,7 +23,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// The grains at one moment, as the engine keeps them: one `Motion` after the other.
+/// Grains at one time as in the engine: an array of `Motion`.
 struct Frame {
   std::string phase;
   double time_s = 0;
@@ -39,7 +39,7 @@ Frame frame_of(const Snapshot& snapshot) {
           particles.identity};
 }
 
-/// A view of a member of every grain, which keeps the frame alive. Shape: grains, then `width` numbers if that is > 0.
+/// View of a member of every grain, which keeps the frame alive. Shape: grains, then `width` if that is > 0.
 template <class Number>
 py::array grains_array(const std::shared_ptr<Frame>& frame, std::size_t offset, py::ssize_t width) {
   const auto count = static_cast<py::ssize_t>(frame->grains.size());
@@ -55,7 +55,7 @@ py::array grains_array(const std::shared_ptr<Frame>& frame, std::size_t offset, 
   return view;
 }
 
-/// One run of a test, to be seen afterwards. Made, then `run` in a thread without the interpreter's lock.
+/// One run of a test for later inspection; `run` is called without the interpreter's lock.
 class SimulationRun {
  public:
   SimulationRun(FoundScene found, std::optional<std::uint64_t> seed, std::optional<double> frames_s, int threads,

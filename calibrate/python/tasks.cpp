@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The packings that the latest tasks of this process started from, each filled once.
+/// Packings of this process's latest tasks, each filled once.
 class Packings {
  public:
   std::shared_ptr<const Packing> of(const std::string& name, const Test& test) {
@@ -68,7 +68,7 @@ json task_json(const Test& test, const RunOptions& options, const std::string& p
   return task;
 }
 
-/// What a packing is called that is filled where it is needed.
+/// Names of packings that are filled by the process that needs them.
 class PackingNames {
  public:
   explicit PackingNames(std::string engine) : engine_(std::move(engine)) {}
@@ -89,11 +89,11 @@ class PackingNames {
   const std::string engine_;
   mutable std::mutex mutex_;
   std::map<const Packing*, std::string> names_;
-  std::vector<std::shared_ptr<const Packing>> kept_;  // so that no two have one address
+  std::vector<std::shared_ptr<const Packing>> kept_;  // keeps their addresses unique
 };
 
-/// What Python's function gave; empty if nobody waits any more. Throws std::runtime_error for an error in it, so that
-/// no object of the interpreter leaves its lock.
+/// Result of the Python function; empty if stopped. Throws std::runtime_error for a Python error, so that no
+/// interpreter object is used without its lock.
 std::string answer_to(const py::function& ask, const std::string& task, const RunOptions& options) {
   const py::gil_scoped_acquire lock;
   try {
@@ -121,7 +121,7 @@ Outcome outcome_of(const std::string& answer) {
 }  // namespace
 
 Engine engine_of(py::function ask, std::string name) {
-  // The engine is copied and dropped by threads that do not hold the interpreter's lock.
+  // Threads without the interpreter's lock copy and destroy the engine.
   const std::shared_ptr<py::function> function(new py::function(std::move(ask)), [](py::function* held) {
     const py::gil_scoped_acquire lock;
     delete held;

@@ -25,7 +25,7 @@ Vec3 turn(const Vec3& v) {
   return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
 }
 
-/// What the transformation does to a vector that has a direction but no place.
+/// Transforms a direction, without position.
 Vec3 arrow(const Vec3& v, Transform transform) {
   if (transform == Transform::turn) return turn(v);
   if (transform == Transform::mirror) return {v.x, -v.y, v.z};
@@ -42,7 +42,7 @@ Vec3 velocity(const Vec3& v, Transform transform) {
   return transform == Transform::boost ? v + kBoost : arrow(v, transform);
 }
 
-/// A spin is a pseudovector: the mirror turns round what lies in its plane.
+/// Transforms a spin, a pseudovector: the mirror inverts its components in the mirror plane.
 Vec3 spin(const Vec3& w, Transform transform) {
   if (transform == Transform::mirror) return {-w.x, w.y, -w.z};
   if (transform == Transform::lengthen) return (1 / kLonger) * w;
@@ -64,7 +64,7 @@ Shape shape_of(const Shape& shape, Transform transform) {
 void lengthen(Impact& test) {
   const double k = kLonger;
   test.contact = enlarged(test.contact, k);
-  test.contact.bridge.viscosity_pa_s *= k;  // a stress over a rate, and times grow
+  test.contact.bridge.viscosity_pa_s *= k;  // stress over rate: scales with time
   test.reference_radius_m *= k;
   test.gravity_m_s2 /= k;
   test.duration_s *= k;
@@ -205,7 +205,7 @@ void read_point(ObjectReader& reader, Point& point) {
   });
 }
 
-/// Every combination of the grid's values with every point so far.
+/// Combines every value of the grid with every point so far.
 void read_grid(ObjectReader& reader, const json& document, std::vector<Point>& points) {
   reader.known("grid");
   const auto grid = document.find("grid");
@@ -268,7 +268,7 @@ std::vector<fs::path> shipped_cases() {
   std::vector<fs::path> folders;
   for (const fs::path& data : data_folders()) {
     folders.push_back(data / "cases");
-    folders.push_back(data / ".." / "tests" / "cases");  // of the sources
+    folders.push_back(data / ".." / "tests" / "cases");  // in the source tree
   }
   for (const fs::path& folder : folders) {
     std::vector<fs::path> files;

@@ -55,8 +55,8 @@ Result<double> hertz_duration(const Impact& scene, const Arguments&) {
 
 // Oblique collisions
 
-/// Impulse on the first grain. With the whole contact sliding Coulomb's law gives the tangential part mu (1 + e) m*
-/// v_n, which must not be enough to stop the sliding: (2/7) m* v_s.
+/// Impulse on the first grain. If the contact slides throughout, Coulomb's law gives the tangential part mu (1 + e) m*
+/// v_n, which must be less than (2/7) m* v_s, the impulse that stops sliding.
 Result<Vec3> impulse(const Impact& scene) {
   const Approach a = pair_of(scene);
   if (a.speed <= 0) return outside("the first grain does not approach its partner");
@@ -111,7 +111,7 @@ Result<double> cohesive_overlap(const Impact& scene, const Arguments&) {
   return std::pow(0.75 * constants(scene).cohesion * s * s / (a.modulus * std::sqrt(a.radius)), 2.0 / 3.0);
 }
 
-/// Force of a bridge at a gap, straight from its definition.
+/// Force of a bridge at a gap, by its definition.
 double attraction(const Impact& scene, double gap) {
   const Bridge& bridge = scene.contact.bridge;
   const double s = size_scale(scene);
@@ -119,13 +119,13 @@ double attraction(const Impact& scene, double gap) {
   return share_of(scene) * s * s * closed_bridge_n(bridge, scene.reference_radius_m, -gap / s);
 }
 
-/// Work of the attraction between two gaps by Simpson's rule; exact for the polynomial.
+/// Work of the attraction between two gaps, by Simpson's rule; exact for the polynomial.
 double work(const Impact& scene, double from, double to) {
   constexpr int kPanels = 1000;
   double sum = 0;
   const double h = (to - from) / kPanels;
   for (int k = 0; k < kPanels; ++k) {
-    // Rounding must not step beyond the rupture.
+    // Prevents rounding beyond the rupture gap.
     const double left = from + k * h, right = k + 1 == kPanels ? to * (1 - 1e-15) : left + h;
     sum += h / 6 * (attraction(scene, left) + 4 * attraction(scene, 0.5 * (left + right)) + attraction(scene, right));
   }
@@ -152,12 +152,12 @@ Result<double> bridge_loop_area(const Impact& scene, const Arguments&) {
   return work(scene, forming_gap(scene), living_gap(scene));
 }
 
-/// Relative speed at which an elastic pair that starts at touch is left by its bridge; 0 if it does not escape.
+/// Relative speed of an elastic pair that starts at touch, after rupture of its bridge; 0 if it does not separate.
 Result<double> speed_after_rupture(const Impact& scene, const Arguments&) {
   return speed_after(pair_of(scene), work(scene, 0, living_gap(scene)));
 }
 
-/// The same for a pair that comes from afar, so that its bridge only costs what the formation gap did not give.
+/// The same for an initially separated pair: the bridge costs the difference of the works of rupture and formation.
 Result<double> speed_after_rebound(const Impact& scene, const Arguments&) {
   return speed_after(pair_of(scene), work(scene, forming_gap(scene), living_gap(scene)));
 }
@@ -188,7 +188,7 @@ Result<double> slope_speed(const Impact& scene, const Arguments&) {
   const WallContact& wall = scene.walls[0].surface;
   const double drive = slope.sine - wall.rolling_friction * slope.cosine;
   if (norm(scene.grains[0].velocity_m_s) == 0 && drive < 0) return 0.0;
-  // Friction has to carry the part of the drive that turns the grain.
+  // Friction provides the part of the drive that rotates the grain.
   const double needed = slope.sine - 5.0 / 7.0 * drive;
   if (std::fabs(needed) > wall.friction * slope.cosine) return outside("the grain does not roll, it slips");
   const double speed = norm(scene.grains[0].velocity_m_s) + 5.0 / 7.0 * scene.gravity_m_s2 * drive * scene.duration_s;
@@ -201,7 +201,7 @@ Result<double> sliding_speed(const Impact& scene, const Arguments&) {
   return norm(scene.grains[0].velocity_m_s) + scene.gravity_m_s2 * drive * scene.duration_s;
 }
 
-/// A grain that spins about y on a wall without friction is only slowed by the rolling torque.
+/// Spin of a grain about y on a frictionless wall, slowed by the rolling torque only.
 Result<double> spin_after_decay(const Impact& scene, const Arguments&) {
   const ImpactGrain& grain = scene.grains[0];
   if (scene.walls[0].surface.friction > 0) return outside("friction turns the spin into a run");
@@ -217,8 +217,8 @@ double start_angle(const ImpactWall& wall) {
   return std::atan2(arm.z, arm.x);
 }
 
-/// 1/2 I w^2 = moment (sin(start) - sin(angle)), the moment that of the weight in the level position; with a load the
-/// first grain adds m x^2 and m g x, x its distance from the hinge along the plate.
+/// 1/2 I w^2 = moment (sin(start) - sin(angle)), with the moment of the weight in the level position. A load, the first
+/// grain, adds m x^2 and m g x; x: its distance from the hinge along the plate.
 double rotor_speed_at(const Impact& scene, double angle, bool loaded) {
   const ImpactWall& wall = scene.walls[0];
   const Plate& plate = std::get<Plate>(wall.shape);
@@ -233,7 +233,7 @@ double rotor_speed_at(const Impact& scene, double angle, bool loaded) {
   return std::sqrt(2 * moment * scene.gravity_m_s2 * fallen / inertia);
 }
 
-/// Integral of d(angle)/w; with angle = start (1 - u^2) the integrand has no singularity. Midpoints.
+/// Integral of d(angle)/w by the midpoint rule; angle = start (1 - u^2) removes the singularity.
 double rotor_time_to_level(const Impact& scene, bool loaded) {
   constexpr int kPoints = 20000;
   const double start = start_angle(scene.walls[0]);
@@ -263,9 +263,9 @@ Result<double> loaded_rotor_time(const Impact& scene, const Arguments&) {
 
 // A grain among held neighbours
 
-/// How fast its swing along its velocity dies away, l in x'' + 2 l x' + w^2 x = 0 with the springs and dampers of all
-/// contacts at the overlap they have at the start, none of them sliding. A pressed contact also turns as the grain
-/// moves across it: -N/distance.
+/// Decay rate l of the oscillation along the velocity, x'' + 2 l x' + w^2 x = 0, with springs and dampers of all
+/// contacts at their initial overlap, without sliding. A loaded contact also rotates when the grain moves across it:
+/// -N/distance.
 Result<double> caged_decay_rate(const Impact& scene, const Arguments&) {
   const ImpactGrain& grain = scene.grains[0];
   const double speed = norm(grain.velocity_m_s);

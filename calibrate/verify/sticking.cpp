@@ -11,12 +11,12 @@ double overlap_of(const Approach& pair, double gamma, double patch) {
   return patch * patch / pair.radius - std::sqrt(4 * std::numbers::pi * gamma * patch / pair.modulus);
 }
 
-/// Contact radius at which the contact is torn apart under a given distance [m].
+/// Contact radius at separation under a prescribed distance [m].
 double jkr_pull_off_patch(const Approach& pair, double gamma) {
   return std::cbrt(std::numbers::pi * gamma * pair.radius * pair.radius / (4 * pair.modulus));
 }
 
-/// The larger of the contact radii that have this overlap, by bisection.
+/// Larger contact radius with this overlap, by bisection.
 double patch_at(const Approach& pair, double gamma, double overlap) {
   double low = jkr_pull_off_patch(pair, gamma), high = 2 * low;
   while (overlap_of(pair, gamma, high) < overlap) high *= 2;
@@ -38,8 +38,8 @@ double jkr_pull(const Approach& pair, double gamma, double gap) {
          4 * pair.modulus * std::pow(patch, 3) / (3 * pair.radius);
 }
 
-/// Integral of the attraction from touch to the end of the contact [J], by Simpson's rule in s, gap = end (1 - s^2),
-/// which takes away the root at the end.
+/// Work of the attraction from touch to separation [J], by Simpson's rule in s; gap = end (1 - s^2) removes the root at
+/// the end.
 double jkr_work(const Approach& pair, double gamma) {
   constexpr int kPanels = 1000;
   const double end = jkr_pull_off_gap(pair, gamma);

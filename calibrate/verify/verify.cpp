@@ -12,7 +12,8 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kPublishedDigits = 1e-3;  // figures are printed with four digits or more; constants in them differ
+constexpr double kPublishedDigits =
+    1e-3;  // printed figures have at least four digits, and slightly different constants
 
 Result<double> expected_value(const Check& check, const Impact& scene, const Point& point) {
   if (const auto* value = std::get_if<double>(&check.expected)) return *value;
@@ -32,14 +33,14 @@ Result<double> expected_value(const Check& check, const Impact& scene, const Poi
                "correct the scene or the published figure"};
 }
 
-/// Fills in error and verdict.
+/// Computes error and verdict.
 void judge(const Check& check, CheckRow& row) {
   row.tolerance = check.tolerance;
   row.absolute = check.absolute;
   row.bound = std::holds_alternative<AtMost>(check.expected);
   row.error = row.bound ? std::max(row.got - row.expected, 0.0) : std::fabs(row.got - row.expected);
   if (!row.absolute && !row.bound) row.error /= std::fabs(row.expected);
-  // Written so that an error that is no number does not pass.
+  // A NaN error must not pass.
   const bool good = row.error <= row.tolerance;
   row.verdict = good ? CaseVerdict::pass : check.known_deviation.empty() ? CaseVerdict::fail : CaseVerdict::known;
   if (!good) row.note = check.known_deviation;
@@ -131,7 +132,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The shipped case of that name, or else the file.
+/// Shipped case with this name, otherwise the file.
 fs::path file_of(const std::string& name, const std::vector<fs::path>& shipped) {
   const auto found = std::ranges::find_if(shipped, [&](const fs::path& file) { return file.stem() == name; });
   return found == shipped.end() ? fs::path(name) : *found;

@@ -15,44 +15,42 @@ namespace pastefit {
 /// How a check ended.
 enum class CaseVerdict {
   pass,
-  known,  ///< it fails, as its file says it does and why
+  known,  ///< fails for a reason documented in its file
   fail
 };
 
 std::string_view name_of(CaseVerdict verdict);
 
-/// One check at one point of a case.
+/// Result of one check at one point of a case.
 struct CheckRow {
   std::size_t check = 0;  ///< index in the case
-  std::string point;      ///< label; empty if the case has one only
+  std::string point;      ///< label; empty if the case has only one
   std::string reading;
   double expected = 0, got = 0;
-  double error = 0;  ///< relative or absolute, as the check says; of a bound: by how much it is exceeded
+  double error = 0;  ///< relative or absolute as in the check; for a bound, the excess
   double tolerance = 0;
   bool absolute = false;
-  bool bound = false;  ///< `expected` is the largest value allowed
+  bool bound = false;  ///< `expected` is an upper bound
   CaseVerdict verdict = CaseVerdict::fail;
-  std::string note;  ///< of a known deviation, or of a run without an answer
+  std::string note;  ///< reason for a known deviation, or for a failed run
 };
 
-/// Runs every point of a case. Rows: for each point, for each check.
-/// `point_done` is called after each point.
-/// Errors: faults of the scene, and formulas that do not hold for it; nothing is then reported.
+/// Runs every point of a case. Rows: for each point, for each check. `point_done`: called after each point. Errors:
+/// faults of the scene, and formulas that are not valid for it; then there are no rows.
 Result<std::vector<CheckRow>> verify(const Case& test, const std::function<void()>& point_done = {});
 
-/// For each check of the case the row with the largest error over its tolerance.
+/// Row with the largest error over its tolerance for each check of the case.
 std::vector<CheckRow> worst_rows(const std::vector<CheckRow>& rows);
 
-/// A case file and how its checks ended.
+/// Case file with the results of its checks.
 struct VerifiedCase {
   std::filesystem::path file;
   Case test;
   std::vector<CheckRow> rows;
 };
 
-/// Runs these cases: names of shipped ones, or files; all shipped ones if there is no name. `begin` is told how many
-/// points there are, `point_done` when one is done.
-/// Errors: every fault of every case; there is none.
+/// Runs cases: names of shipped ones, or files; all shipped ones if `names` is empty. `begin`: receives the number of
+/// points. `point_done`: called after each. Errors: every fault of every case; there are no cases.
 Result<std::vector<VerifiedCase>> verify_cases(const std::vector<std::string>& names,
                                                const std::function<void(int)>& begin = {},
                                                const std::function<void()>& point_done = {});

@@ -27,14 +27,14 @@ double least_gap(const Impact& scene) {
   return kRoughness * pair_of(scene).radius * (meets_grain(scene) ? 2 : 1);
 }
 
-/// Of two grains; of a grain above a plane through the origin.
+/// Initial gap of two grains, or of a grain above a plane through the origin.
 double first_gap(const Impact& scene) {
   const ImpactGrain& grain = scene.grains[0];
   if (!meets_grain(scene)) return grain.centre_m.z - grain.radius_m;
   return norm(scene.grains[1].centre_m - grain.centre_m) - grain.radius_m - scene.grains[1].radius_m;
 }
 
-/// Of the sliding decay: what has become of a grain's velocity and spin.
+/// Velocity and spin of a grain after the sliding decay.
 struct Sheared {
   Vec3 velocity, spin;
 };

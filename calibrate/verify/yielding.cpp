@@ -7,7 +7,7 @@ namespace pastefit {
 
 namespace {
 
-/// One cycle of the law, branch by branch.
+/// One cycle of the law.
 class Cycle {
  public:
   explicit Cycle(const Impact& scene) : pair_(pair_of(scene)) {
@@ -22,13 +22,13 @@ class Cycle {
     deepest_ = deepest_overlap(scene);
   }
 
-  /// Repulsion on the way apart.
+  /// Repulsion during separation.
   double force(double overlap) const {
     if (overlap <= 0) return 0;
     const double power = std::pow(overlap, exponent_), deepest = std::pow(deepest_, exponent_);
     return std::max(unloading() * (power - plastic_ * deepest), -adhesion_ * power) - pull_off_;
   }
-  /// The constant pull-off gives on the way in what it takes on the way out.
+  /// Work lost in the cycle; the constant pull-off does no net work.
   double lost() const {
     const double end = adhesion_begins();
     const double unloaded = unloading() * (integral(deepest_) - integral(end) -
