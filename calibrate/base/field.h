@@ -23,8 +23,7 @@ struct Range {
 struct Key {
   std::string_view name;
   std::string_view meaning = {};
-  std::string_view schema =
-      {};  ///< schema of the admissible words, "laws.schema.json#/properties/normal"; empty: inline
+  std::string_view schema = {};  ///< with the words, "laws.schema.json#/properties/normal"; empty: inline
 
   template <class Name>
   requires std::convertible_to<const Name&, std::string_view> Key(const Name& key, std::string_view in_words = {},

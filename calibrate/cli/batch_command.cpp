@@ -37,7 +37,7 @@ struct BatchArguments {
   bool force = false;
 };
 
-constexpr int kMostDeaths = 3;      // of one calibration's process
+constexpr int kMostDeaths = 3;      // of one calibration's process; as for a worker
 constexpr int kElementWorkers = 4;  // default number of cores of an array element
 const std::string kBatchTable = "batch.csv", kBatchPage = "batch.html";
 const std::string kArrayScript = "batch.sbatch", kTableScript = "batch-table.sbatch";

@@ -16,8 +16,8 @@
 
 namespace pastefit {
 
-/// ParaView pictures of a run: grains, links and walls. A test has one series per stage, whose clock starts at its
-/// first snapshot; an impact has one series.
+/// ParaView pictures of a run: grains, links and walls. A test has one series per stage, whose clock starts at the time
+/// of its first snapshot; an impact has one series.
 class RunPictures {
  public:
   /// `scene` must outlive the pictures. Writes nothing yet.

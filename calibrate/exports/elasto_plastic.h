@@ -48,11 +48,12 @@ inline std::string pairs_of(const std::vector<double>& values) {
 /// given, fixed adhesion stiffness, and Luding's friction and rolling (`tan_luding`, `luding`), whose limit mu |F + f0
 /// + kc d| is the card's.
 ///
-/// `luding` is reproduced exactly. `epa` is written with linear springs, too, with the same force at one overlap
-/// (`matched_overlap_ratio`); plasticity and adhesion ratio are unchanged, so the pull-off is the same fraction of
-/// every load. With exponent 3/2, the model deviates as soon as a contact reaches the adhesion branch: its memory
-/// shrinks there by (k2 + kc)/(k2 - k1) without the exponent 2/3, so the contact never leaves that branch, however
-/// large the overlap, and grains collapse into each other.
+/// `luding` is the card's law, except for the tangential and rolling springs, which vary with the overlap. `epa` is
+/// written with linear springs, too, with the same force at one overlap (`matched_overlap_ratio`); plasticity and
+/// adhesion ratio are unchanged, so the pull-off is the same fraction of every load. With exponent 3/2, the model
+/// deviates as soon as a contact reaches the adhesion branch: its memory shrinks there by (k2 + kc)/(k2 - k1) without
+/// the exponent 2/3, so the contact never leaves that branch, however large the overlap, and grains collapse into each
+/// other.
 ///
 /// Decks work around two properties of LIGGGHTS 3.8.0. With `limitForce` (default), `fixKc` and no constant pull-off,
 /// every attraction is cut to zero. If two grains change their order, by sorting or by moving to another process, the

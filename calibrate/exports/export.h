@@ -39,7 +39,7 @@ struct ExportWall {
 struct ExportScene {
   std::string title;  ///< of the card, with the test's name, if any
   Test test;
-  double grain_density_kg_m3 = 0;  ///< of the packing's grains, which give the bulk density in the mould
+  double grain_density_kg_m3 = 0;  ///< of a grain in the packing; gives the bulk density in the mould
   Packing packing = {};            ///< filled mould of a slump test; empty for other tests
   SizeClasses sizes = {};          ///< of the packing's grains; the mean radius for other tests
   std::optional<double> card_density_kg_m3 = std::nullopt;  ///< of a grain; mean over the card's packings

@@ -84,8 +84,7 @@ Result<Export> export_yade(const ExportScene& scene) {
                   {NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt, NormalLaw::sjkr},
                   kAllRolling,
                   kAllAttractions};
-  if (card.normal == NormalLaw::jkr)
-    known.attraction = {BridgeShape::none};  // written as its DMT, which excludes a second attraction
+  if (card.normal == NormalLaw::jkr) known.attraction = {BridgeShape::none};  // its DMT excludes a second attraction
   Faults faults = unknown_laws(card, known);
   for (const auto& [name, wall] : walls_of(scene.test))
     if (wall.cohesion_factor > 0)

@@ -159,8 +159,8 @@ inline std::optional<LikelyRange> likely_strength_pa(const Specimen&, const Read
   return std::nullopt;
 }
 
-/// Distance to rejection by the standards: above 1 the test would be rejected and repeated. NaN if not read; nothing
-/// for kinds of tests without rejection.
+/// Rejection index: above 1, the standards require the test to be repeated. NaN if not read; nothing for kinds of tests
+/// without rejection.
 inline std::optional<double> rejection_index(const Specimen&, const Readings&) {
   return std::nullopt;
 }

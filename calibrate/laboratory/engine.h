@@ -36,9 +36,9 @@ class RunObserver {
   virtual double interval_s() const = 0;
 };
 
-/// Failure of a test whose grains are so soft that their own attraction would exceed the overlap limit of `RunOptions`;
-/// found without simulation. A search calls this before it prepares a candidate: the softer the grains, the smaller the
-/// poured volume and the longer the filling of the mould, both without limit.
+/// Failure of a test whose grains are so soft that the overlap by their own attraction exceeds the limit in
+/// `RunOptions`; found without simulation. A search calls this before it prepares a candidate: the softer the grains,
+/// the smaller the poured volume and the longer the filling of the mould, both without limit.
 std::optional<Failure> too_soft(const Test& test, const RunOptions& options);
 
 }  // namespace pastefit

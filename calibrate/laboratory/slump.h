@@ -101,7 +101,7 @@ std::vector<FilePlace> places_in_files(const SlumpTest&);
 /// Motion time of the mould until it is off the heap.
 double moved_time_s(const SlumpTest& test);
 
-/// Complete and in SI, with the unit in each key. Every key is required.
+/// In SI, with the unit in each key. Keys without a default are required.
 template <class Fields>
 void describe_test(Fields& fields, SlumpTest& test) {
   fields.object({"mould", "a frustum"}, required,

@@ -197,13 +197,12 @@ std::optional<std::string> template_text_of_mould(std::string_view name, std::st
 /// Readings of all kinds of tests, with default values.
 std::vector<ReadingKind> all_reading_kinds();
 
-/// Converts a test to JSON, complete and in SI, with the unit in each key: the canonical form for cards and stored
-/// evaluations. Equal tests give equal text (keys sorted, doubles with round-trip precision). Requirement: every number
-/// is finite.
+/// Converts a test to JSON in SI, with the unit in each key: the canonical form for cards and stored evaluations. Equal
+/// tests give equal text (keys sorted, doubles with round-trip precision). Requirement: every number is finite.
 nlohmann::json to_json(const Test& test);
 
-/// Parses the result of `to_json`. Every key is required except the kind; default: slump test. Errors: every fault of
-/// form, otherwise every fault of `validate`; places are paths in the JSON.
+/// Parses the result of `to_json`. Keys without a default are required; default of the kind: slump test. Errors: every
+/// fault of form, otherwise every fault of `validate`; places are paths in the JSON.
 Result<Test> test_from_json(const nlohmann::json& document);
 
 /// JSON schema of `to_json`, one form per kind; common parts go to the definitions of `schema`.

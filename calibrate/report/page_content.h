@@ -16,9 +16,9 @@ nlohmann::ordered_json page_content(const Findings& findings, const std::string&
 /// Every stored simulation in order of arrival, for a drawing:
 ///     {"number", "test", "packing", "values": {...}, "readings": {...}, "misfit", "failure", "ended_early",
 ///      "sketch", "confirmation", "other_grains"}.
-/// values: of the free parameters; without a study, of all that are not default. misfit: largest difference of a fitted
-/// reading over its tolerance, in display units (`ErrorUnit`); omitted if unknown. Members that are false are omitted.
-/// censored: lower bound of the misfit. other_grains: coarse grains, or tests outside the study; without misfit.
+/// values: of the free parameters; without a study, of all that are not default. misfit: error in display units
+/// (`ErrorUnit`); omitted if unknown. Members that are false are omitted. ended_early: the error is a lower bound.
+/// other_grains: coarse grains, or tests outside the study; without error.
 nlohmann::ordered_json search_history(const Findings& findings);
 
 /// Misfit of predicted readings over the two most important parameters, with the others as recommended:

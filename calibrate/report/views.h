@@ -23,8 +23,8 @@ struct TestView {
   std::size_t lacking = 0;  ///< packings without a complete run
 };
 
-/// View of a test on the first confirmation packings. Uses `seen`; other packings are simulated in parallel. `goes_on`
-/// is called before and between steps; after it returns false, nothing more is simulated, and incomplete runs count as
+/// View of a test on these confirmation packings. Uses `seen`; other packings are simulated in parallel. `goes_on` is
+/// called before and between steps; after it returns false, nothing more is simulated, and incomplete runs count as
 /// lacking. `threads` 0: one per processor.
 TestView view_of(const CardTest& test, std::span<const std::uint64_t> packings, int threads,
                  const std::function<bool()>& goes_on, RunRecordings* seen = nullptr);

@@ -129,8 +129,8 @@ ordered_json grains_json(const Sheet& sheet, const Test& test, Faults& faults) {
   return {};
 }
 
-/// Standard deviation of a single reading: the published one for this mould, otherwise the published fraction of a
-/// height. Angle of repose: nothing is published; 1.5 degrees is the value of wheat calibrations
+/// Standard deviation of a single reading: the published one for this mould, otherwise a fraction of the mould's
+/// height, or of a mass. Angle of repose: nothing is published; 1.5 degrees is the value of wheat calibrations
 /// (data/lab/wheat-repose.json). Times: EN 12350-8 gives a repeatability of 0.66 s, which is 2.8 deviations; a tenth of
 /// longer times.
 double deviation_of(const ReadingKind& kind, const Test& test, double value) {

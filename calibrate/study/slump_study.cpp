@@ -96,8 +96,7 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
   bool timed = false;
   for (const auto& [key, reading] : measurements.items()) timed = timed || key.ends_with("_s");
   if (timed && laws.law == "bridge" && laws.target == "lammps") {
-    const double most_pa_s =
-        rounded(0.4 * radius_mm, 2);  // larger viscosities need shorter steps, depending on the radius
+    const double most_pa_s = rounded(0.4 * radius_mm, 2);  // larger ones need shorter steps, by the radius
     out["viscosity_pa_s"] = {{"free", {rounded(most_pa_s / 100, 2), most_pa_s}}, {"scale", "log"}};
   }
   return out;

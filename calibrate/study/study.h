@@ -85,13 +85,10 @@ struct SearchOptions {
   int screening = 8;                 ///< space-filling points
   int budget_simulations = 60;       ///< in total, confirmation included
   int packings = 2;     ///< random packings shared by an optimiser's candidates, and those with coarse grains
-  int max_pending = 0;  ///< candidates that may be running when the next one is proposed; if above 0, a confirmation
-                        ///< requests all its packings at once
-  int confirmation_packings = 4;  ///< new packings for the reported candidate
-  double rejected_share =
-      0.2;  ///< largest share of rejected heaps; 1: not judged; default: at least the measured share
-  int examination_simulations =
-      12;  ///< for the examination after the search, in the same budget: which other candidates fit as well
+  int max_pending = 0;  ///< running candidates when the next one is proposed; above 0: confirmation is one batch
+  int confirmation_packings = 4;     ///< new packings for the reported candidate
+  double rejected_share = 0.2;       ///< of heaps, at most; 1: not judged; default: the measured share if larger
+  int examination_simulations = 12;  ///< of the same budget, after the search: which other candidates fit as well
   std::optional<double> tolerance_mm = std::nullopt;  ///< of fitted lengths without a tolerance of their own
   bool coarse_first = false;                          ///< search with coarse grains first (`calibrate/study/tests.h`)
   bool end_early = true;  ///< candidates may be stopped early (`calibrate/evaluate/early_end.h`)

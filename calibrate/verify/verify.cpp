@@ -12,8 +12,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kPublishedDigits =
-    1e-3;  // printed figures have at least four digits, and slightly different constants
+constexpr double kPublishedDigits = 1e-3;  // figures have at least four digits; their constants differ
 
 Result<double> expected_value(const Check& check, const Impact& scene, const Point& point) {
   if (const auto* value = std::get_if<double>(&check.expected)) return *value;
