@@ -85,7 +85,7 @@ struct SearchOptions {
   int screening = 8;                 ///< space-filling points
   int budget_simulations = 60;       ///< in total, confirmation included
   int packings = 2;     ///< random packings shared by an optimiser's candidates, and those with coarse grains
-  int max_pending = 0;  ///< running candidates when the next one is proposed; above 0: confirmation is one batch
+  int max_pending = 0;  ///< most running candidates when another is proposed; above 0: confirmation is one batch
   int confirmation_packings = 4;     ///< new packings for the reported candidate
   double rejected_share = 0.2;       ///< of heaps, at most; 1: not judged; default: the measured share if larger
   int examination_simulations = 12;  ///< of the same budget, after the search: which other candidates fit as well
