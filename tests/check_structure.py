@@ -11,7 +11,7 @@ import sys
 
 # What each count may be at most. Lower a number when the tree shrinks; one that has to grow wants a reason in its commit.
 MOST = {
-    "lines of C++ in calibrate": 36459,
+    "lines of C++ in calibrate": 36315,
     "files of core and calibrate": 433,
     "of them below 40 lines": 60,
     "files that start or wait for threads": 2,

@@ -9,8 +9,8 @@
 
 namespace pastefit {
 
-/// Type of a path that is no regular file: "a folder", "a symbolic link", "a device", "a FIFO", "a socket". Empty for
-/// regular files and missing paths. Does not follow links.
+/// Type of a path that is not a regular file: "a folder", "a symbolic link", "a device", "a FIFO", "a socket". Empty
+/// for regular files and missing paths. Does not follow links.
 std::string kind_of_special_file(const std::filesystem::path& path);
 
 /// Replaces a file atomically: writes beside it, syncs, renames. Replaces regular files only: a program that runs as

@@ -56,7 +56,7 @@ Result<std::string> read_input(const fs::path& file, const InputKind& kind) {
     return Fault{name, circle ? "is a symbolic link that goes in a circle" : "there is no such file", "check the path"};
   }
   if (fs::is_directory(status)) return Fault{name, "is a folder", file_in(file, kind.ending)};
-  if (!fs::is_regular_file(status)) return Fault{name, "is no regular file", std::string(kind.remedy)};
+  if (!fs::is_regular_file(status)) return Fault{name, "is not a regular file", std::string(kind.remedy)};
   const Fault too_large{name, "is larger than " + std::to_string(kind.largest_bytes >> 20) + " MB",
                         std::string(kind.remedy)};
   if (fs::file_size(file, error) > kind.largest_bytes && !error) return too_large;

@@ -290,11 +290,11 @@ void ObjectReader::for_each_object(const Key& key, Need need, const std::functio
   if (need == Need::required && (!list || (list->is_array() && list->empty())))
     return fault(key, "there are none", "at least one: [ { ... } ]");
   if (!list) return;
-  if (!list->is_array()) return fault(key, "is no list", "a list of objects [ { ... } ]");
+  if (!list->is_array()) return fault(key, "is not a list", "a list of objects [ { ... } ]");
   for (std::size_t i = 0; i < list->size(); ++i) {
     const std::string entry = std::string(key) + "[" + std::to_string(i) + "]";
     if (!(*list)[i].is_object()) {
-      fault(entry, "is no object", "an object { ... }");
+      fault(entry, "is not an object", "an object { ... }");
       continue;
     }
     ObjectReader reader((*list)[i], place(entry), faults_);

@@ -41,8 +41,8 @@ auto read_file(const std::filesystem::path& file, const FromJson& from_json)
   return faults;
 }
 
-/// Checks the document's "format", e.g. "pastefit-lab-1". False only if reading on is pointless: it is no object, or
-/// another kind of pastefit file.
+/// Checks the document's "format", e.g. "pastefit-lab-1". False only if reading on is pointless: it is not an object,
+/// or another kind of pastefit file.
 bool has_format(const nlohmann::json& document, std::string_view expected, Faults& faults);
 
 /// The value in faults: numbers and texts verbatim, "an object", "a list" or "null".
@@ -154,7 +154,7 @@ class ObjectReader {
   template <class Body>
   const nlohmann::json* find_object(std::string_view key, Need need, std::string_view remedy, const Body& body,
                                     std::string_view instead = "");
-  /// Advice for a value that is no object with these keys.
+  /// Advice for a value that is not an object with these keys.
   static std::string remedy_of(const nlohmann::json& value, const std::set<std::string, std::less<>>& keys);
   /// Index of the word; a fault if there is none.
   std::optional<std::size_t> word(std::string_view key, std::span<const std::string_view> words, Need need);

@@ -227,7 +227,8 @@ void describe_search(Fields& fields, Of& search) {
   fields.integer({"seed", "of the search"}, search.seed, required);
   fields.integers({"packings", "seeds of the packings on which candidates were compared"}, search.packings, required);
   fields.integer({"budget", "simulations allowed"}, search.budget, 0, very_many, required);
-  fields.integer({"simulations", "simulations asked for"}, search.simulations, 0, very_many, required);
+  fields.integer({"simulations", "simulations finished, those known from an earlier run included"}, search.simulations,
+                 0, very_many, required);
   fields.object({"failures", "simulations without an answer, by reason"}, required, [&](auto& failures) {
     for (const std::string& name : failure_names()) {
       const auto known = search.failures.find(name);
@@ -273,7 +274,7 @@ std::vector<CardInference::Correlation> pairs_of(const std::vector<Row>& rows);
 
 template <class Fields, class Of>
 void describe_inference(Fields& fields, Of& inference) {
-  fields.object({"intervals", "what the readings leave open of each fitted parameter"},
+  fields.object({"intervals", "range of each fitted parameter that agrees with the readings"},
                 WrittenIf{!inference.intervals.empty()}, [&](auto& intervals) {
                   intervals.text({"method", "in words"}, inference.method, required);
                   intervals.number({"level", "probability with which an interval holds the parameter"}, inference.level,
@@ -286,7 +287,7 @@ void describe_inference(Fields& fields, Of& inference) {
                                 });
                 });
   std::vector<Row> rows = rows_of(inference.correlations);
-  fields.entries({"correlation", "of pairs of parameters within what the readings leave open"}, rows, &Row::first,
+  fields.entries({"correlation", "of pairs of parameters, within their joint interval"}, rows, &Row::first,
                  WrittenIf{!rows.empty()}, [](auto& correlation, const Key& first, auto& row) {
                    correlation.entries(first, row.pairs, &CardInference::Correlation::second, required,
                                        [](auto& pairs, const Key& second, auto& pair) {
@@ -294,7 +295,7 @@ void describe_inference(Fields& fields, Of& inference) {
                                        });
                  });
   if constexpr (Fields::reads) inference.correlations = pairs_of(rows);
-  fields.entries({"not_identified", "parameters that the readings cannot see, and why"}, inference.not_identified,
+  fields.entries({"not_identified", "parameters that the readings do not identify, and why"}, inference.not_identified,
                  &CardInference::NotIdentified::parameter, WrittenIf{!inference.not_identified.empty()},
                  [](auto& unseen, const Key& name, auto& one) { unseen.text(name, one.reason, required); });
   describe_conditions(fields, inference.conditions);

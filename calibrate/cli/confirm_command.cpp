@@ -75,7 +75,7 @@ Asked asked_for(const Card& card, const ConfirmOptions& options) {
 Faults unusable_options(const ConfirmOptions& options) {
   Faults faults;
   if (options.engine != "lammps")
-    faults.push_back({"--engine", one_line(options.engine) + " is no engine that can confirm a card", "lammps"});
+    faults.push_back({"--engine", one_line(options.engine) + " is not an engine that can confirm a card", "lammps"});
   std::string first;
   if (std::istringstream(options.launch) >> first; !first.empty() && !is_program(first))
     faults.push_back({"--launch", "there is no program " + one_line(first),

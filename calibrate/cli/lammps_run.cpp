@@ -162,7 +162,7 @@ Result<fs::path> lammps_program(const std::string& given, const std::atomic<bool
   if (!given.empty()) {
     const fs::path program = program_file(given);
     if (program.empty())
-      return Fault{"--program", one_line(given) + " is no program that can be run",
+      return Fault{"--program", one_line(given) + " is not a program that can be run",
                    "check the path and its permissions"};
     return program;
   }

@@ -45,7 +45,7 @@ Faults unknown_options(const CLI::App& verb, int argc, char** argv) {
     const std::string word = std::string(argv[i]).substr(0, std::string_view(argv[i]).find('='));
     if (!word.starts_with("--") || names.contains(word)) continue;
     const auto near = nearest(word, names);
-    faults.push_back({printable(word), "is no option of pastefit " + verb.get_name(),
+    faults.push_back({printable(word), "is not an option of pastefit " + verb.get_name(),
                       near ? "did you mean " + *near + "?" : "see pastefit help " + verb.get_name()});
   }
   return faults;

@@ -57,7 +57,7 @@ Faults output_folder_faults(const std::string& option, const fs::path& folder) {
   const fs::path there = nearest_there(folder);
   const std::string where = option + " " + folder.string();
   if (!fs::is_directory(there, error))
-    return {{where, there.string() + " is no folder", "choose a folder that can be made"}};
+    return {{where, there.string() + " is not a folder", "choose a folder that can be made"}};
   if (::access(there.c_str(), W_OK | X_OK) == 0) return {};
   return {
       {where, there.string() + " cannot be written: " + std::strerror(errno), "choose a folder that can be written"}};

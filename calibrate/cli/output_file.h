@@ -14,8 +14,8 @@ bool is_stream(const std::filesystem::path& file);
 /// True for "-" and the names of standard output; other output of the command would be mixed with the content.
 bool is_standard_output(const std::filesystem::path& file);
 
-/// Reasons why `file`, given as `option`, cannot be written: it exists and may not be replaced, is no regular file, or
-/// its folder is missing or not writable. Call this before any simulation.
+/// Reasons why `file`, given as `option`, cannot be written: it exists and may not be replaced, is not a regular file,
+/// or its folder is missing or not writable. Call this before any simulation.
 Faults output_file_faults(const std::string& option, const std::filesystem::path& file, bool force);
 /// As `output_file_faults`, but streams are allowed.
 Faults output_faults(const std::string& option, const std::filesystem::path& file, bool force);

@@ -58,7 +58,7 @@ Result<Exporter> exporter_named(const std::string& name) {
   auto near = nearest(small, names);
   for (const std::string& one : names)
     if (!small.empty() && one.starts_with(small) && (!near || *near != small)) near = one;
-  return Fault{"--to " + printable(name), "is no target of an export",
+  return Fault{"--to " + printable(name), "is not a target of an export",
                near ? "did you mean '" + *near + "'?" : "one of " + list};
 }
 

@@ -52,7 +52,7 @@ class DumpReader {
   Result<Particles> finish() {
     if (item_ == Item::grains) end_grains();
     if (!seen_ && faults_.empty())
-      faults_.push_back({name_, "holds no line \"ITEM: ATOMS ...\": it is no text dump of grains", kDumpRemedy});
+      faults_.push_back({name_, "holds no line \"ITEM: ATOMS ...\": it is not a text dump of grains", kDumpRemedy});
     if (!faults_.empty()) return faults_;
     std::vector<std::size_t> order(grains_.size());
     std::iota(order.begin(), order.end(), 0);
@@ -102,7 +102,7 @@ class DumpReader {
     std::size_t count = 0;
     if (words.size() != 1 ||
         std::from_chars(words[0].data(), words[0].data() + words[0].size(), count).ptr != words[0].end())
-      fault("is no number of atoms", "a whole number");
+      fault("is not a number of atoms", "a whole number");
     else
       count_ = count;
   }
@@ -191,7 +191,8 @@ Faults misplaced(const std::string& dump, const Particles& grains, const Packing
 Result<Readings> read_heaps(const Test& test, std::optional<std::uint64_t> packing_seed, const Particles& filled,
                             std::span<const Particles> heaps, const RunOptions& fill) {
   const auto* const slump = std::get_if<SlumpTest>(&test);
-  if (!slump) return Fault{"the card's test", "is no slump test: there is no heap to read", "a slump test with --test"};
+  if (!slump)
+    return Fault{"the card's test", "is not a slump test: there is no heap to read", "a slump test with --test"};
   SlumpTest exported = *slump;
   exported.packing_seed = packing_seed.value_or(exported.packing_seed);
   Faults faults;

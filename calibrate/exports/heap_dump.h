@@ -28,7 +28,7 @@ Result<Particles> read_dump(const std::filesystem::path& file);
 
 /// Reads heaps of another program: readings of step 1 and, with a second heap, of step 2. `filled`: the same grains in
 /// the mould before the lift. `packing`: the exported seed; default: the test's own. `fill`: options of the filling for
-/// the comparison. Errors: the test is no slump test; the dumps differ in their grains from each other, or from the
+/// the comparison. Errors: the test is not a slump test; the dumps differ in their grains from each other, or from the
 /// card's mould (by a tenth of the number, or 5 % of the mean radius, e.g. by another unit); no grain is near the
 /// table.
 Result<Readings> read_heaps(const Test& test, std::optional<std::uint64_t> packing, const Particles& filled,

@@ -189,15 +189,13 @@ std::string next(const Inference& inference) {
     const MeasurementGain& gain = inference.gains[i];
     if (gain.narrowing > worth_measuring) break;
     const bool known = std::ranges::find(inference.fitted, gain.reading) != inference.fitted.end();
-    out += format(
-        "  %d %smeasurements of %s (+-%s each) would leave %s %.0f "
-        "%% of its uncertainty.\n",
-        gain.measurements, known ? "more " : "", gain.reading.c_str(), plain(gain.deviation).c_str(),
-        gain.parameter.c_str(), 100 * gain.narrowing);
+    out += format("  %d %smeasurements of %s (+-%s each) would narrow the interval of %s by %.0f %%.\n",
+                  gain.measurements, known ? "more " : "", gain.reading.c_str(), plain(gain.deviation).c_str(),
+                  gain.parameter.c_str(), 100 * (1 - gain.narrowing));
   }
-  if (inference.jumps) return "  The response jumps: what a further measurement would narrow is not predicted.\n";
+  if (inference.jumps) return "  The response jumps: the gain of a further measurement is not predicted.\n";
   if (out.empty())
-    out = "  No reading of this test would tell more; a test of another kind, or on another apparatus, would.\n";
+    out = "  No further reading of this test would narrow an interval; a test of another kind or apparatus may.\n";
   return out;
 }
 

@@ -80,7 +80,7 @@ std::vector<StudyReading> read_readings(ObjectReader& document) {
 Faults clashing_names(const CustomProblem& problem, std::span<const std::string> own) {
   Faults faults;
   const auto check = [&](const std::string& place, const std::string& name) {
-    if (name.empty()) faults.push_back({place + ".\"\"", "is no name", "a name of at least one letter"});
+    if (name.empty()) faults.push_back({place + ".\"\"", "is not a name", "a name of at least one letter"});
     if (std::ranges::count(own, name) > 0)
       faults.push_back({place + "." + name, "is a key of every candidate, answer or evaluation", "another name"});
   };
@@ -216,7 +216,7 @@ Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::spa
   Faults faults;
   CustomProblem problem;
   problem.content = document.dump();
-  if (!document.is_object()) return Fault{"", "is no object", "{\"title\", \"parameters\", \"measurements\", ...}"};
+  if (!document.is_object()) return Fault{"", "is not an object", "{\"title\", \"parameters\", \"measurements\", ...}"};
   {
     ObjectReader reader(document, "", faults);
     reader.text("title", problem.title, Need::required);

@@ -80,7 +80,7 @@ Result<Findings> read_findings(const fs::path& folder, const std::string& store)
   std::error_code error;
   const fs::path card_file = folder / kCardFile, store_file = folder / store;
   if (!fs::is_directory(folder, error))
-    return Fault{folder.string(), "is no folder", "the folder of a calibration, as given to --out"};
+    return Fault{folder.string(), "is not a folder", "the folder of a calibration, as given to --out"};
   const bool has_card = fs::exists(card_file, error);
   if (!has_card && !fs::exists(store_file, error))
     return Fault{folder.string(), "holds neither " + kCardFile + " nor " + store,

@@ -40,7 +40,7 @@ std::string doubt_about(const Calibration& result, const ErrorUnit& unit, double
     if (verdict == Verdict::refuted && told.rejected > 0)
       return heaps + format(": more than a share of %g", rejected_share) + spent;
     if (verdict == Verdict::refuted) return heaps + ", but all came near to it" + spent;
-    return heaps + format(": by how near they came to it a share of %g is not certain", rejected_share) + spent +
+    return heaps + format(": it is not yet known whether at most a share of %g shears off", rejected_share) + spent +
            " Allow more simulations.";
   }
   const std::string tolerance = tolerance_in_words(unit);

@@ -233,13 +233,12 @@ bool contradicts(const Response& single, const OutOfReach& found) {
 std::string describe(const OutOfReach& found, std::span<const std::string> readings,
                      std::span<const std::string> parameters) {
   std::string out =
-      name_at(readings, found.reading, "reading ") + " is out of reach: the model stays " +
-      format("%s the laboratory's %.3g. The %s it is likely to give within these bounds is %.3g",
-             found.above ? "above" : "below", found.measured, found.above ? "least" : "most", found.likely) +
-      format(", %s %.3g with 99.9 %% probability", found.above ? "no less than" : "no more than", found.at_best);
-  if (found.bounds.empty()) return out + ". No bound stands in the way: it is the model, or its grains.";
-  out += ". In the way ";
-  out += found.bounds.size() == 1 ? "stands" : "stand";
+      name_at(readings, found.reading, "reading ") + " is out of reach: all simulated values are " +
+      format("%s the measured %.3g. The %s predicted value within these bounds is %.3g",
+             found.above ? "above" : "below", found.measured, found.above ? "least" : "largest", found.likely) +
+      format(", %s %.3g with 99.9 %% probability", found.above ? "at least" : "at most", found.at_best);
+  if (found.bounds.empty()) return out + ". No bound limits it: the model does, or its grains.";
+  out += found.bounds.size() == 1 ? ". The limit is" : ". The limits are";
   for (std::size_t i = 0; i < found.bounds.size(); ++i)
     out += std::string(i == 0 ? " the " : " and the ") + (found.bounds[i].upper ? "upper" : "lower") + " bound of " +
            name_at(parameters, static_cast<std::size_t>(found.bounds[i].parameter), "parameter ");
@@ -264,12 +263,12 @@ std::string describe_screening(std::span<const Response> singles, std::span<cons
       return single.censored && single.residuals[i] < 0 && single.readings[i] == one.lowest;
     });
     out += (out.empty() ? "" : " ") + name_at(readings, k, "reading ") +
-           format(" went from %.3g%s to %.3g, ", one.lowest, or_less ? " or less" : "", one.highest);
+           format(": simulated values from %.3g%s to %.3g, ", one.lowest, or_less ? " or less" : "", one.highest);
     if (one.all_above || one.all_below)
-      out += std::string("always ") + (one.all_above ? "above" : "below") +
-             " the laboratory, which may still be in reach.";
+      out +=
+          std::string("all ") + (one.all_above ? "above" : "below") + " the measured one, which may still be in reach.";
     else
-      out += "the laboratory among them.";
+      out += "on both sides of the measured one.";
   }
   return out;
 }

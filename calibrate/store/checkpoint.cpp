@@ -54,13 +54,13 @@ Result<RunState> Checkpoint::read() const {
   const auto fault = [&](std::string what, std::string remedy) {
     return Fault{file_.string(), std::move(what), std::move(remedy)};
   };
-  if (!std::filesystem::is_regular_file(file_, error)) return fault("is no regular file", "the name of a file");
+  if (!std::filesystem::is_regular_file(file_, error)) return fault("is not a regular file", "the name of a file");
   std::ifstream in(file_, std::ios::binary);
   if (!in) return fault(std::string("cannot be read: ") + std::strerror(errno), "a file that can be read");
   // The first line is read separately, so that no other file is loaded into memory.
   std::string whole(kFormat.size() + 1, '\0');
   if (!in.read(whole.data(), static_cast<std::streamsize>(whole.size())) || whole != kFormat + "\n")
-    return fault("is no checkpoint of pastefit", "name another file, which it would replace");
+    return fault("is not a checkpoint of pastefit", "name another file, which it would replace");
   std::ostringstream content;
   content << in.rdbuf();
   whole += std::move(content).str();
@@ -79,7 +79,7 @@ Result<RunState> Checkpoint::read() const {
   double wall_s = 0;
   const auto [end, problem] = std::from_chars(wall.data(), wall.data() + wall.size(), wall_s);
   if (problem != std::errc() || end != wall.data() + wall.size() || !(wall_s >= 0 && wall_s <= kLongest_s))
-    return fault("is damaged: the time it has taken is no number of seconds", kAnew);
+    return fault("is damaged: the time it has taken is not a number of seconds", kAnew);
   return RunState{std::string(left), wall_s};
 }
 

@@ -22,8 +22,8 @@ class Checkpoint {
   /// `options`: those that change the bits of the run are part of its name.
   Checkpoint(std::filesystem::path file, const Test& test, const RunOptions& options);
 
-  /// Reads the file; an empty state if there is none. Errors: it cannot be read, is no checkpoint, is damaged, or was
-  /// written by another program or for another run.
+  /// Reads the file; an empty state if there is none. Errors: it cannot be read, is not a checkpoint, is damaged, or
+  /// was written by another program or for another run.
   Result<RunState> read() const;
 
   /// Replaces the file atomically. Errors: it cannot be written.

@@ -88,7 +88,7 @@ Readings readings_from_json(const ordered_json& in) {
 }
 
 std::int64_t whole_number_from_json(const json& in) {
-  if (!in.is_number_integer()) throw std::invalid_argument(in.dump() + " is no whole number");
+  if (!in.is_number_integer()) throw std::invalid_argument(in.dump() + " is not a whole number");
   return in.get<std::int64_t>();
 }
 

@@ -159,7 +159,7 @@ void demand_columns(const Row& row, std::size_t count) {
 void refuse_what_nothing_stored(const StoredEvaluation& evaluation) {
   const auto outside = [](double value, double bound) { return !std::isnan(value) && std::abs(value) > bound; };
   for (const Reading& one : evaluation.readings.all())
-    if (outside(one.value, kLargestReading)) throw std::invalid_argument(one.name + " is no reading");
+    if (outside(one.value, kLargestReading)) throw std::invalid_argument(one.name + " is not a reading");
   for (const double coordinate : evaluation.point)
     if (!(coordinate >= 0 && coordinate <= 1)) throw std::invalid_argument("the point is outside of the bounds");
   for (const double value : evaluation.values)

@@ -32,7 +32,7 @@ void read_direction(ObjectReader& reader, std::string_view key, Vec3& target) {
   if (const double length = norm(given); length > 0)
     target = (1 / length) * given;
   else
-    reader.fault(key, "is no direction", "a vector that is not zero, e.g. [0, 0, 1]");
+    reader.fault(key, "is not a direction", "a vector that is not zero, e.g. [0, 0, 1]");
 }
 
 /// Reads a vector, or a speed with the angle from the downward vertical towards +x.

@@ -127,7 +127,7 @@ void read_mix(ObjectReader& document, std::vector<MixVariable>& mix) {
           if (word && !name.empty() && name[0] >= 'a')
             mix.push_back({name, value});
           else
-            reader.fault(name, "is no name of a mix variable",
+            reader.fault(name, "is not a name of a mix variable",
                          "small letters, digits and _, with the unit at its end: \"water_kg_m3\"");
         }
       },

@@ -220,7 +220,7 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
     const auto kind = std::ranges::find(of_test, key, &ReadingKind::key);
     if (kind == of_test.end() || kind->key.empty() || kind->from_outline) {
       const auto near = meant_reading(name, of_test);
-      faults.push_back({reading_fault_place(name), "is no reading of a slump test",
+      faults.push_back({reading_fault_place(name), "is not a reading of a slump test",
                         near ? "did you mean " + *near + "?" : "e.g. slump=180 or spread=330"});
       continue;
     }

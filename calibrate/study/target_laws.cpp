@@ -126,10 +126,10 @@ std::optional<TargetLaws> laws_for(std::string_view given, std::string_view law)
 
 Fault no_such_laws(std::string_view target, std::string_view law) {
   if (!laws_for(target))
-    return {"--for " + printable(target), "is no program that pastefit knows the laws of",
+    return {"--for " + printable(target), "is not a program that pastefit knows the laws of",
             "one of " + names_of_targets()};
   if (std::ranges::count(known_laws, law, &StartingLaws::word) == 0)
-    return {"--law " + printable(law), "is no law that a study can start from", "one of " + names_of_laws()};
+    return {"--law " + printable(law), "is not a law that a study can start from", "one of " + names_of_laws()};
   std::string others;
   for (const TargetLaws& laws : known_targets)
     if (laws.target == target) others += (others.empty() ? "" : ", ") + std::string(laws.law);

@@ -147,14 +147,14 @@ std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, con
   document.refuse("tolerances", "stand beside \"tests\"", "give each test tolerances of its own");
   const json& list = study["tests"];
   if (!list.is_array() || list.empty() || list.size() > most_tests) {
-    document.fault("tests", "is no list of 1 to " + std::to_string(most_tests) + " tests",
+    document.fault("tests", "is not a list of 1 to " + std::to_string(most_tests) + " tests",
                    "[ {\"name\": \"slow\", \"lab\": \"slow.json\"}, ... ]");
     return tests;
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string place = "tests[" + std::to_string(i) + "]";
     if (!list[i].is_object()) {
-      document.fault(place, "is no object", "{\"name\": \"slow\", \"lab\": \"slow.json\"}");
+      document.fault(place, "is not an object", "{\"name\": \"slow\", \"lab\": \"slow.json\"}");
       continue;
     }
     ObjectReader reader(list[i], place, document.faults());

@@ -95,8 +95,8 @@ Result<std::vector<double>> written_readings(const std::string& where, const std
     const auto number = written_number(part);
     if (!number) {
       const std::string meant(meant_by(with_percent_sign(decimal)));
-      if (!meant.empty()) return Fault{where, "holds " + in_quotes(text) + ", which is no number", meant};
-      return wrong("holds " + in_quotes(part) + ", which is no number");
+      if (!meant.empty()) return Fault{where, "holds " + in_quotes(text) + ", which is not a number", meant};
+      return wrong("holds " + in_quotes(part) + ", which is not a number");
     }
     if (number->comma)
       return Fault{where, "holds " + in_quotes(part),

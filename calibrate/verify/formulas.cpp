@@ -346,7 +346,7 @@ std::string_view what_lacks(FormulaNeeds needs, const Impact& scene) {
     return std::holds_alternative<Plate>(wall.shape) && wall.rotor_mass_kg;
   };
   if (needs == FormulaNeeds::rotor && (scene.walls.empty() || !is_rotor(scene.walls[0])))
-    return "the first wall is no plate with a rotor_mass_kg";
+    return "the first wall is not a plate with a rotor_mass_kg";
   return {};
 }
 

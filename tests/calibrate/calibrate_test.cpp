@@ -150,7 +150,7 @@ TEST_CASE("a study whose residuals would not be finite is refused, whoever put i
   };
   CHECK(validate(coarse_study(), {}).empty());
   const std::string prior = "parameters.strength_pa.prior.standard_deviation", height = "step1.height_mm";
-  // The square overflows at 1e-153, the residual itself at 1e-310, and 0/0 is no number.
+  // The square overflows at 1e-153, the residual itself at 1e-310, and 0/0 is not a number.
   for (const double deviation : {1e-160, 1e-310, 0.0})
     CHECK(fault_of([&](Study& study) { study.parameters.at(0).prior = Prior{1000, deviation}; }) == prior);
   CHECK(fault_of([](Study& study) { study.tests.at(0).lab.measurements.at(0).standard_deviation = 1e-170; }) == height);

@@ -34,7 +34,7 @@ def words(value):
 
 
 def parsed(file):
-    """What is in a file, nothing if that is no JSON."""
+    """What is in a file, nothing if that is not JSON."""
     try:
         return json.loads(file.read_text())
     except ValueError:

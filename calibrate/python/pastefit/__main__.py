@@ -23,7 +23,7 @@ spread over processes of this machine (the default), the ranks of MPI, or the wo
 def _seconds(text: str) -> float:
     value = float(text)
     if not 0 <= value < math.inf:
-        raise argparse.ArgumentTypeError(f"{text} is no number of seconds")
+        raise argparse.ArgumentTypeError(f"{text} is not a number of seconds")
     return value
 
 

@@ -43,7 +43,7 @@ def _faults_in(value: Any, place: str) -> Iterator[Tuple[str, str, str]]:
         shown = str(value) if isinstance(value, float) else "a whole number that is too large"
         yield place, f"is {shown}", "a finite number; leave out what is missing"
     elif isinstance(value, str) and printable(value) != value:
-        yield place, "is no text that UTF-8 can hold", "text without lone surrogates"
+        yield place, "is not text that UTF-8 can hold", "text without lone surrogates"
 
 
 def printable(text: str) -> str:

@@ -244,15 +244,15 @@ def _error_in(result: Mapping[str, Any], observables: Sequence[str]) -> Optional
         return str(result["error"]) or "The simulator failed."
     for name in result:
         if isinstance(name, str) and printable(name) != name:
-            return f"The simulator gave a reading with the name {name!r:.60}, which is no text."
+            return f"The simulator gave a reading with the name {name!r:.60}, which is not text."
     for name, value in ((name, result[name]) for name in observables if name in result):
         number = number_of(value)
         if value is None or (number is not None and not math.isfinite(number)):
             return f"The simulator gave no number for {name}."
         if number is None:
-            return f"The simulator gave {value!r:.60} for {name}, which is no number."
+            return f"The simulator gave {value!r:.60} for {name}, which is not a number."
         if not _is_reading(number):
-            return f"The simulator gave {number:.3g} for {name}, which is no reading."
+            return f"The simulator gave {number:.3g} for {name}, which is not a reading."
     return None
 
 

@@ -126,7 +126,7 @@ class Batch(Desk):
         result = self.batch(one, other, same, LAB, self.folder / "none.json")
         self.fails(result, 2, "search.screening", f'{same}: has the name "mix-00"', "pastefit-lab-1", "none.json", "4 errors")
         self.assertFalse(self.out.exists())
-        self.fails(run("batch", one, "--out", one), 2, "is no folder")
+        self.fails(run("batch", one, "--out", one), 2, "is not a folder")
 
     def test_a_table_of_what_is_there_simulates_nothing(self):
         studies = write_studies(self.folder, 2)

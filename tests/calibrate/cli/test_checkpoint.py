@@ -94,7 +94,7 @@ class Checkpoint(Desk):
         self.file.write_bytes(good.replace(b" engine ", b" motor  ", 1))
         self.fails(run(*self.simulate("--checkpoint", self.file)), 2, "was written by pastefit", "start anew")
         self.file.write_text("my notes")
-        self.fails(run(*self.simulate("--checkpoint", self.file)), 2, "is no checkpoint", "name another file")
+        self.fails(run(*self.simulate("--checkpoint", self.file)), 2, "is not a checkpoint", "name another file")
         self.assertEqual(self.file.read_text(), "my notes")
 
     def forged(self, good, state=None, wall=None):

@@ -246,7 +246,7 @@ class New(Desk):
         self.assertNotIn("notes", lab["provenance"])
         ran = run("simulate", self.out / "lab.json", "--set", "grains.largest_mm=12")
         self.assertIn("the yield stress of 925 Pa is compared, not fitted", ran.stderr)
-        for stress, words in (("0", "is not above 0"), ("soft", "no number"), ("60 mm", "is in mm"), ("90000", "predicts no reading")):
+        for stress, words in (("0", "is not above 0"), ("soft", "not a number"), ("60 mm", "is in mm"), ("90000", "predicts no reading")):
             self.fails(run("new", self.folder / "other", "--mould", "abrams", "--density", "1850", "--yield-stress", stress), 2,
                        "yield stress", words)
         self.assertFalse((self.folder / "other").exists())

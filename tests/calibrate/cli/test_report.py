@@ -130,8 +130,8 @@ class Report(Desk):
         self.out.mkdir()
         self.fails(run("report", self.out), 2, "holds neither card.json nor evaluations.sqlite")
         self.assertEqual(list(self.out.iterdir()), [])
-        self.fails(run("report", self.out / "none"), 2, "is no folder")
-        self.fails(run("report", CARD), 2, "is no folder")
+        self.fails(run("report", self.out / "none"), 2, "is not a folder")
+        self.fails(run("report", CARD), 2, "is not a folder")
 
 
 if __name__ == "__main__":

@@ -265,7 +265,7 @@ class Sheets(Desk):
 
     def test_slips_at_the_command_line_are_answered_with_what_was_meant(self):
         lab = self.lab({"step1.slump_mm": {"value": 160, "standard_deviation": 7.5}})
-        self.fails(run("calibrate", self.study_of(), "--ot", self.out), 2, "--ot: is no option", "did you mean --out?")
+        self.fails(run("calibrate", self.study_of(), "--ot", self.out), 2, "--ot: is not an option", "did you mean --out?")
         self.fails(run("simulate", lab, "--set", "frction=0.3"), 2, 'did you mean "friction"?')
         self.fails(run("simulate", self.study_of(), "--set", "frction=0.3"), 2, 'did you mean "friction"?')
         (self.folder / "card.json").write_text("{}")

@@ -131,12 +131,12 @@ class SpecialFiles(Desk):
                 with self.subTest(file.name, command=command[:2]):
                     result = quickly(*command)
                     self.assertEqual(result.returncode, 2, result.stderr)
-                    self.assertRegex(result.stdout + result.stderr, "is (a FIFO|a device|no regular file)")
+                    self.assertRegex(result.stdout + result.stderr, "is (a FIFO|a device|not a regular file)")
 
     def test_an_empty_checkpoint_is_called_what_it_is(self):
         empty = self.folder / "empty"
         empty.write_bytes(b"")
-        self.fails(quickly("simulate", CARD, "--checkpoint", empty), 2, "is no checkpoint of pastefit")
+        self.fails(quickly("simulate", CARD, "--checkpoint", empty), 2, "is not a checkpoint of pastefit")
         self.assertEqual(empty.read_bytes(), b"")
 
     def test_a_file_size_limit_is_told_and_kills_nothing(self):

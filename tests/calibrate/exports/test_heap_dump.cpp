@@ -37,7 +37,7 @@ TEST_CASE("a dump's last snapshot is read in the order of the grains' numbers, w
   CHECK(later.value().motion[1].position.x == 4);
 }
 
-TEST_CASE("a dump that is no whole one of grains is refused with the line") {
+TEST_CASE("a dump that is not a whole one of grains is refused with the line") {
   fails("", "heap.dump", "no line \"ITEM: ATOMS");
   fails("{\"format\": \"pastefit-card-6\"}\n", "heap.dump", "no line \"ITEM: ATOMS");
   fails(kHead + kColumnsLine + "2 1 0.1 0.2 0.3 0.008\n", "line 10", "ends after 1 grains of 2");
@@ -67,7 +67,7 @@ TEST_CASE("of a dump with many faults the first twenty are listed") {
   CHECK(parse_dump(text, "heap.dump").faults().size() == 20);
 }
 
-TEST_CASE("a dump that is no regular file or too large is refused unread") {
+TEST_CASE("a dump that is not a regular file or too large is refused unread") {
   const test::Folder folder;
   for (const auto& file : {folder.path() / "none.dump", folder.path(), std::filesystem::path("/dev/zero")})
     CHECK_FALSE(read_dump(file).ok());

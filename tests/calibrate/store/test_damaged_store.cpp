@@ -62,7 +62,7 @@ TEST_CASE("a damaged evaluation is named, set aside, and kept anew") {
   SECTION("the order") {
     execute(file, "UPDATE evaluations SET sequence = 7 WHERE sequence = 2");
   }
-  SECTION("what is no JSON") {
+  SECTION("what is not JSON") {
     execute(file, "UPDATE evaluations SET failure = '{\"reason\": \"moonlight' WHERE sequence = 2");
   }
   {

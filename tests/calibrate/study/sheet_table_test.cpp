@@ -204,7 +204,7 @@ TEST_CASE("a row without a reading is named, not lost in silence") {
   CHECK(read_without_faults("sample,slump\nx,180\ny,\nz,170\n").without == std::vector<std::size_t>{3});
 }
 
-TEST_CASE("a sheet of a table names the file and its line as its source, and a workbook is no table") {
+TEST_CASE("a sheet of a table names the file and its line as its source, and a workbook is not a table") {
   const test::Folder folder;
   Faults faults;
   const auto table = read_sheet_table(folder.write("book.csv", "sample,slump\nx,180\n"), {}, faults);

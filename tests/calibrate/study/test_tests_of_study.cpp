@@ -95,7 +95,7 @@ TEST_CASE("what is wrong with a list of tests is said with its place, all at onc
   CHECK(says(at(faults, "nowhere.json"), "no such file"));
   CHECK(says(at(faults, "tests[3].name"), "missing"));
   CHECK(says(at(faults, "tests[3].holdout"), "hold_out"));
-  CHECK(says(at(faults, "tests[4]"), "no object"));
+  CHECK(says(at(faults, "tests[4]"), "not an object"));
   CHECK(faults.size() == 9);
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("a study of hold-outs alone has nothing to fit") {
   document["tests"] = {{{"name", "a"}, {"lab", "lab.json"}, {"hold_out", true}}};
   CHECK(says(at(Desk().faults(document), "tests"), "all are held out"));
   document["tests"] = json::array();
-  CHECK(says(at(Desk().faults(document), "tests"), "no list of 1 to 20"));
+  CHECK(says(at(Desk().faults(document), "tests"), "not a list of 1 to 20"));
 }
 
 }  // namespace

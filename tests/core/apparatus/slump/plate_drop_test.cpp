@@ -170,7 +170,7 @@ TEST_CASE("too many drops, none, and a rhythm that the plate cannot keep are fau
   CHECK(places(hasty).empty());
 }
 
-TEST_CASE("what a table does not do is no reading of it, and says why") {
+TEST_CASE("what a table does not do is not a reading of it, and says why") {
   const auto lack_of = [](const SlumpTest& test, const char* name) {
     const auto kinds = reading_kinds(test);
     return find_kind(kinds, name)->lack.has_value();
