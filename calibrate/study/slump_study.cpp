@@ -54,27 +54,31 @@ HeapWidth width_of(const SlumpTest& test, std::span<const Measurement> measured)
   return share < narrow ? HeapWidth::narrow : share > wide ? HeapWidth::wide : HeapWidth::ordinary;
 }
 
-/// Laws named in the sheet, otherwise the default of the target. If the sheet names none and the target supports both,
-/// heaps that keep more than half of their height get elasto-plastic adhesion, because bridge heaps shear off. Others
-/// get the bridge, whose strength does not depend on the size of the mould (tests/results/laws.md); so do timed flows,
-/// because only a bridge has a viscosity, and sheets with a yield stress only.
+/// Laws named in the sheet, otherwise those of the target that suit the readings. Heaps that keep more than half of their
+/// height get elasto-plastic adhesion where the target has it, because heaps of its other laws shear off or keep the
+/// mould's shape. Others get the target's first law: the strength of a bridge does not depend on the size of the mould
+/// (tests/results/laws.md). So do timed flows, because only a bridge has a viscosity, and sheets with a yield stress
+/// only.
 ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
                    std::span<const Measurement> measured) {
   constexpr double stands = 0.5;
-  const auto bridge = laws_for(sheet.target, "bridge"), epa = laws_for(sheet.target, "epa");
-  if (!sheet.law.empty() || !bridge || !epa) return {named, std::string(named.why)};
-  if (find_measurement(measured, "step1.t500_s") || find_measurement(measured, "step1.flow_time_s"))
-    return {*bridge, "The flow is timed, and of the laws only a bridge has a viscosity"};
-  if (sheet.readings.empty())
-    return {*bridge, "A yield stress is known, and of the laws a bridge has a strength in Pa"};
+  const ChosenLaws first{named, std::string(named.why)};
+  const auto epa = laws_for(sheet.target, "epa");
+  if (!sheet.law.empty() || !epa) return first;
+  if (named.law == "bridge") {
+    if (find_measurement(measured, "step1.t500_s") || find_measurement(measured, "step1.flow_time_s"))
+      return {named, "The flow is timed, and of the laws only a bridge has a viscosity"};
+    if (sheet.readings.empty())
+      return {named, "A yield stress is known, and of the laws a bridge has a strength in Pa"};
+  }
   const auto* height = find_measurement(measured, "step1.height_mm");
   if (height && height->value > 1e3 * stands * test.mould.height_m)
     return {*epa,
-            "More than half of the height is left: heaps of a bridge shear off there, heaps of elasto-plastic "
-            "adhesion stand"};
+            "More than half of the height is left: heaps of " + std::string(named.law) +
+                " shear off there, heaps of elasto-plastic adhesion stand"};
   if (width_of(test, measured) == HeapWidth::narrow)
     return {*epa, "The heap is narrow: heaps of elasto-plastic adhesion that stick to the table are"};
-  return {*bridge, std::string(bridge->why)};
+  return first;
 }
 
 /// Height and spread, or the spreads before and after the drops of a table, identify strength and friction; one of them

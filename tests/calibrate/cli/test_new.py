@@ -296,6 +296,8 @@ class New(Desk):
         self.assertIn("only a bridge has a viscosity", why)
         self.assertEqual(normal_of("--height", "90", "--spread", "510", "--law", "epa")[0], "epa")
         self.assertEqual(normal_of("--height", "90", "--spread", "510", "--for", "edem")[0], "jkr")
+        for program, law in (("liggghts", "epa"), ("edem", "epa"), ("yade", "hertz")):  # Yade's decks have no law of this kind
+            self.assertEqual(normal_of("--slump", "100", "--spread", "270", "--for", program)[0], law)
         self.fails(run("new", self.folder / "other", *ABRAMS, "--for", "yade", "--law", "epa"), 2, "yade does not run", "one of bridge")
         self.fails(run("new", self.folder / "other", *ABRAMS, "--law", "ebridge"), 2, "one of bridge, epa, jkr, sjkr")
 
