@@ -8,23 +8,23 @@
 
 namespace pastefit {
 
-/// A number of an apparatus, described once. From its row follow its range, its key in JSON and in files for people,
-/// the place of its faults, and what the schemas of data/schema say of it.
+/// One numerical field of an apparatus. Its row gives the range check, the JSON key, the key in laboratory files, the
+/// place named in error messages, and the entry in the schemas of data/schema.
 template <class Owner>
 struct Dimension {
-  std::string_view field;  ///< its name in SI, which ends with its unit: "base_radius_m"
+  std::string_view field;  ///< SI name, ending with the unit: "base_radius_m"
   double Owner::*value;
-  double smallest, largest;  ///< admissible, in SI
-  std::string_view meaning;  ///< as files explain it
-  bool has_default = false;  ///< files may leave it out
-  /// It moves the readings, and reports of such tests often leave it out.
+  double smallest, largest;  ///< accepted range, in SI
+  std::string_view meaning;  ///< explanation in files
+  bool has_default = false;  ///< may be omitted in files
+  /// It affects the readings, and reports of such tests often omit it.
   bool often_unstated = false;
 };
 
-/// "m/s" of "lift_velocity_m_s"; empty if the name has no unit.
+/// Unit of a field name, "m/s" for "lift_velocity_m_s"; empty if the name has none.
 std::string_view unit_of_field(std::string_view field);
 
-/// Faults of those out of range. `prefix`: of the fields of an inner object, "mould.".
+/// Checks all ranges. `prefix`: path of an inner object, "mould.".
 template <class Owner, std::size_t count>
 void check_dimensions(FieldChecker& check, const Owner& owner, const std::array<Dimension<Owner>, count>& dimensions,
                       const std::string& prefix = "") {
@@ -32,7 +32,7 @@ void check_dimensions(FieldChecker& check, const Owner& owner, const std::array<
     check.range(prefix + std::string(one.field), owner.*one.value, one.smallest, one.largest, unit_of_field(one.field));
 }
 
-/// Of every surface of an apparatus.
+/// The dimensions of every surface of an apparatus.
 inline constexpr std::array<Dimension<WallContact>, 4> surface_dimensions{{
     {"restitution", &WallContact::restitution, 0.001, 1, "rebound speed over impact speed, without attraction", true},
     {"friction", &WallContact::friction, 0, 10, "sliding friction of granules on it", true},

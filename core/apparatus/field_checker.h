@@ -12,10 +12,10 @@
 
 namespace pastefit {
 
-/// Collects faults of numbers that are not finite or not in their range.
+/// Collects faults of numbers that are not finite or out of range.
 class FieldChecker {
  public:
-  /// Not of a place that has a fault already.
+  /// Adds no second fault for the same place.
   void range(std::string where, double value, double lower, double upper, std::string_view unit) {
     if (std::isfinite(value) && value >= lower && value <= upper) return;
     const auto at_place = [&](const Fault& fault) { return fault.where == where; };
@@ -38,17 +38,17 @@ class FieldChecker {
     s.resize(std::snprintf(s.data(), s.size(), "%.6g", value));
     return s;
   }
-  /// A length as files and people have it.
+  /// A length in mm, the unit of files and messages.
   static std::string in_mm(double length_m) { return text(1e3 * length_m) + " mm"; }
 
  private:
   Faults faults_;
 };
 
-/// Faults of what all tests share: grains, density, contact laws. Places are the fields' paths in a test.
+/// Checks what all tests share: grains, density, contact laws. Places are field paths.
 void check_specimen(FieldChecker& check, const Specimen& specimen);
 
-/// Faults of a surface of the apparatus.
+/// Checks a surface of the apparatus.
 void check_wall(FieldChecker& check, const WallContact& wall, const std::string& name);
 
 }  // namespace pastefit

@@ -12,7 +12,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kMostSolid = 0.7;  // share of a vessel that is poured as solid
+constexpr double kMostSolid = 0.7;  // solid volume poured, over the volume of the vessel
 constexpr double kDeepest = 0.9;    // overlap over the smaller radius
 constexpr double kFillCap = 2;      // [s]
 constexpr double kScrape = 0.5;     // [radii] centres less than this below the fill height are scraped away
@@ -48,7 +48,7 @@ LooseGrains struck_off(const LooseGrains& grains, double height) {
 FilledVessel fill_vessel(const Specimen& granules, const Pouring& pouring, const LooseGrains& loose,
                          const Vessel& vessel, const RestMeasure& rest_measure, const RunOptions& asked) {
   RunOptions options = with_bounds_of(granules, asked);
-  // A fixed step and the energy balance are meant for the test.
+  // A fixed step and the energy balance apply to the test, not to the filling.
   options.steps.fixed_step_s.reset();
   options.steps.energy_balance = false;
   FilledVessel filled;

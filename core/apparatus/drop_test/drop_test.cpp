@@ -18,7 +18,7 @@ double speed_after_fall(double height_m) {
   return std::sqrt(2 * kGravity * height_m);
 }
 
-/// Where the centre of the ball is when it touches a plate through the origin, above which it falls.
+/// Height of the ball's centre at touch, for a plate through the origin below it.
 double height_at_touch(const DropTest& test, double tilt_rad) {
   return test.grains.radius_m / std::cos(tilt_rad);
 }
@@ -34,7 +34,7 @@ WallContact same_material(const ContactModel& grains) {
   return plate;
 }
 
-/// The last bit of the fall, beyond the reach of attraction, the contact, and as much of the rebound.
+/// The end of the fall from beyond the reach of attraction, the contact, and the rebound up to the same gap.
 Impact end_of_fall(const DropTest& test, double tilt_rad, const RunOptions& options) {
   constexpr double kLeastGap = 0.01, kRoom = 1.01;  // of the radius; over the reach of attraction
   const double radius = test.grains.radius_m;
@@ -56,7 +56,7 @@ Impact end_of_fall(const DropTest& test, double tilt_rad, const RunOptions& opti
   plate.surface = same_material(test.contact);
   impact.walls = {plate};
   impact.rebound_gap_m = gap;
-  impact.duration_s = 2 * impact_speed_m_s(test) / kGravity;  // no ball is longer in the air
+  impact.duration_s = 2 * impact_speed_m_s(test) / kGravity;  // longer than any flight of the ball
   if (options.steps.fixed_step_s) {
     impact.step = ImpactStep::fixed;
     impact.step_s = *options.steps.fixed_step_s;
@@ -64,7 +64,7 @@ Impact end_of_fall(const DropTest& test, double tilt_rad, const RunOptions& opti
   return impact;
 }
 
-/// One drop; `stage`: what its readings are called by.
+/// One drop; `stage`: prefix of its readings.
 Outcome drop(const DropTest& test, double tilt_rad, const std::string& stage, const RunOptions& options) {
   const Impact impact = end_of_fall(test, tilt_rad, options);
   Outcome outcome = simulate(impact, options);
@@ -85,7 +85,7 @@ Outcome drop(const DropTest& test, double tilt_rad, const std::string& stage, co
   return outcome;
 }
 
-/// The summary of one drop with that of the next.
+/// Summary of both drops.
 RunSummary together(RunSummary one, const RunSummary& next) {
   one.steps += next.steps;
   one.particle_steps += next.particle_steps;
@@ -123,12 +123,12 @@ Outcome simulate(const DropTest& test, const RunOptions& options) {
 
 std::vector<ReadingKind> reading_kinds(const DropTest& test) {
   constexpr int level = 0, tilted = 1;
-  constexpr double room = 0.02;  // for the tolerances of an apparatus
+  constexpr double room = 0.02;  // margin for the accuracy of the apparatus
   constexpr Lack not_tilted{"the plate is not tilted, so the ball falls on a level one only",
                             "leave it out, or give the angle in apparatus.plate_tilt_deg"};
   const double fall_mm = 1e3 * test.drop_height_m;
   const ReadingRange height{0, (1 + room) * fall_mm};
-  // A ball that rolls without sliding has 5/7 of this; one whose surface springs back no more than twice that.
+  // A ball that rolls without sliding has 5/7 of v sin t/R; with tangential rebound it has at most twice that.
   const double along_plate_m_s = impact_speed_m_s(test) * std::sin(test.plate_tilt_rad);
   const ReadingRange spin{0, 10.0 / 7 * (1 + room) * along_plate_m_s / test.grains.radius_m};
   // clang-format off

@@ -60,7 +60,8 @@ Approach approach_of_wall(const Impact& test, std::size_t i, std::size_t w) {
   return approach;
 }
 
-// 4 sqrt(pi) Gamma(2/5)/(5 Gamma(9/10)) (15/16)^(2/5): from the largest overlap over the speed.
+// 4 sqrt(pi) Gamma(2/5)/(5 Gamma(9/10)) (15/16)^(2/5): the contact lasts 2.943 times the largest overlap over the
+// speed.
 constexpr double kHertzDuration = 2.8682656992;
 
 double hertz_contact_time(const Approach& a, double speed) {

@@ -15,8 +15,8 @@ namespace pastefit {
 
 namespace {
 
-/// The step for `steps_per_contact`, such that the duration is a whole number of it. Speeds that only weight,
-/// cohesion or a bridge will give count as well.
+/// The step for `steps_per_contact`, rounded so that the duration is a whole number of steps. Includes speeds that
+/// gravity, cohesion or a bridge will cause.
 double constant_step(const Impact& test) {
   if (test.step == ImpactStep::fixed) return test.step_s;
   double shortest = test.duration_s;
@@ -39,7 +39,7 @@ double constant_step(const Impact& test) {
   return test.duration_s / std::ceil(test.duration_s * test.steps_per_contact / shortest);
 }
 
-/// Where a held grain is at a time, and how fast.
+/// Position and velocity of a held grain at a given time.
 struct Course {
   Vec3 position, velocity;
 };
@@ -76,8 +76,7 @@ World make_world(const Impact& test) {
   return world;
 }
 
-/// The impact as a run: the step is the test's own, and no balance of energies is kept, because it would know nothing
-/// of the hands that hold grains.
+/// Run options: the test's own step, and no energy balance, which would not include the work of held grains.
 RunOptions options_of(const Impact& test, RunOptions options) {
   options.steps = {};
   options.steps.energy_balance = false;
@@ -96,7 +95,7 @@ class ImpactRun {
         runner_(world_, options_, {}),
         record_(test, world_) {}
 
-  /// Until the duration is over, to half a step, and one step more, from which the velocities at that moment are known.
+  /// Runs until the duration is over, within half a step, and one more step, which gives the velocities at that moment.
   Outcome run() {
     const auto drive = [this](World&, double dt) { drive_rotors(dt); };
     const auto is_over = [this](const World&) {
@@ -140,7 +139,7 @@ class ImpactRun {
         if (test_.walls[w].rotor_mass_kg) world_.walls[w].angular_velocity = {};
   }
 
-  /// Puts the held grains where they are to be, whatever acted on them.
+  /// Puts the held grains on their prescribed paths, whatever the forces.
   void hold() {
     Particles& particles = world_.particles;
     for (std::int32_t i = 0; i < particles.count(); ++i) {
@@ -158,7 +157,7 @@ class ImpactRun {
   Runner runner_;
   ImpactRecord record_;
   double dt_ = 0;    ///< the last step [s]
-  double kick_ = 0;  ///< over which it changed the velocities [s]
+  double kick_ = 0;  ///< time over which the last step changed the velocities [s]
   std::optional<double> rotor_time_;
   double rotor_speed_ = 0;
 };

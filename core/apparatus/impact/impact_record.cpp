@@ -52,14 +52,14 @@ std::vector<ImpactRecord::Sample> ImpactRecord::complete(double kick) const {
   for (std::size_t i = 0; i < n_; ++i) {
     Sample& sample = before[i];
     sample.force = mass_[i] * ((1 / kick) * (after[i].velocity - sample.velocity) - weight);
-    if (first_) continue;  // velocities are still those of the positions
+    if (first_) continue;  // at the first step, velocities belong to the positions
     sample.velocity = 0.5 * (sample.velocity + after[i].velocity);
     sample.spin = 0.5 * (sample.spin + after[i].spin);
   }
   return before;
 }
 
-/// Of the first grain and what is nearest to it.
+/// Overlap of the first grain with its nearest neighbour or wall.
 double ImpactRecord::watched_overlap() {
   const std::vector<Sample> grains = samples();
   const double radius = test_.grains[0].radius_m;
@@ -108,7 +108,7 @@ void ImpactRecord::watch_contact() {
   if (!first_) {
     const double interval = begun_s_ - now_s_;
     const double inside = std::max(depth, 0.0) + std::max(overlap_, 0.0), spanned = std::fabs(depth - overlap_);
-    // Share of the interval in which the overlap, a straight line, was positive.
+    // Share of the interval with positive overlap, interpolated linearly.
     if (depth > 0 && overlap_ > 0)
       contact_time_ += interval;
     else if (inside > 0)
@@ -119,7 +119,7 @@ void ImpactRecord::watch_contact() {
   pull_ = pull;
 }
 
-/// Gaps that were passed between the two last moments.
+/// Records gaps passed between the last two times.
 void ImpactRecord::watch_pulls(double pull) {
   for (std::size_t k = 0; k < pulls_.size(); ++k) {
     const double from_start = -test_.pull_gaps_m[k] - overlap_, step = begun_overlap_ - overlap_;

@@ -11,11 +11,11 @@
 
 namespace pastefit {
 
-/// How fast a swing about zero dies away, from its first two turning points:
-/// ln(|first| / |second|) / (time between them) [1/s]; a turning point is that of the parabola through three samples.
+/// Decay rate of an oscillation about zero from its first two turning points, ln(|first| / |second|) / (time between
+/// them) [1/s]. A turning point is the vertex of the parabola through three samples.
 class Swing {
  public:
-  /// Samples come evenly spaced in time.
+  /// Samples must be evenly spaced in time.
   void add(double time, double value) {
     if (samples_ >= 2 && turns_.size() < 2 && (value - last_.value) * (last_.value - before_.value) < 0)
       note_turn(value);
@@ -23,7 +23,7 @@ class Swing {
     last_ = {time, value};
     ++samples_;
   }
-  /// Empty: it has not turned twice.
+  /// Empty before the second turning point.
   std::optional<double> decay_rate() const {
     if (turns_.size() < 2) return {};
     return std::log(std::fabs(turns_[0].value / turns_[1].value)) / (turns_[1].time - turns_[0].time);
@@ -45,37 +45,36 @@ class Swing {
   std::vector<Sample> turns_;
 };
 
-/// What is measured of an impact, step by step. Everything by the grains' places in the test, not in the world, which
-/// sorts them.
+/// Readings of an impact, updated every step. Grains are indexed as in the test, because the world sorts them.
 ///
-/// Forces of a step act where the grains are at its beginning; the velocities there are the means of the half steps
-/// before and after. So a step is known once it is over, and what is read is of its beginning.
+/// The forces of a step act at the positions at its beginning; the velocities there are the means of the half steps
+/// before and after. So a step is evaluated when it is over, and the readings belong to its beginning.
 class ImpactRecord {
  public:
-  /// Both have to outlive the record.
+  /// Requirement: both outlive the record.
   ImpactRecord(const Impact& test, const World& world);
 
-  /// To be called before each step.
+  /// Call before each step.
   void begin_step();
-  /// To be called after each step, which has changed the velocities over the time `kick`.
+  /// Call after each step, which changed the velocities over the time `kick`.
   void end_step(double kick);
 
-  /// The first grain has touched something and is far from it, or comes back (`Impact::rebound_gap_m`).
+  /// True when the first grain has touched something and has left it, or approaches again (`Impact::rebound_gap_m`).
   bool rebound_is_over() const;
 
-  /// The readings of `simulate(Impact)` but for those of a rotor.
+  /// The readings of `simulate(Impact)`, except those of a rotor.
   void read(Readings& readings) const;
 
  private:
-  /// A grain at the moment to which the last forces belong.
+  /// A grain at the time of the last forces.
   struct Sample {
     Vec3 position, velocity, spin;
-    Vec3 force;  ///< all but its weight [N]
+    Vec3 force;  ///< all forces except its weight [N]
   };
 
   std::vector<Sample> samples() const;
   double watched_overlap();
-  /// The samples at the beginning of the step that is over.
+  /// Samples at the beginning of the last complete step.
   std::vector<Sample> complete(double kick) const;
   void account_momentum(const std::vector<Sample>& samples, double kick);
   void account_work(const std::vector<Sample>& samples);
@@ -89,13 +88,13 @@ class ImpactRecord {
   const World& world_;
   const std::size_t n_;
   std::vector<double> mass_;
-  bool first_ = true;  ///< no step is over yet
+  bool first_ = true;  ///< no step is complete yet
 
-  // As the step that is under way began.
+  // At the beginning of the current step.
   std::vector<Sample> begun_;
   double begun_s_ = 0, begun_overlap_ = 0;
 
-  // As the last step that is over began.
+  // At the beginning of the last complete step.
   std::vector<Sample> now_;
   double now_s_ = 0, overlap_ = 0, pull_ = 0;
   Vec3 towards_nearest_;

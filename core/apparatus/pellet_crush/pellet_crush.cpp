@@ -12,7 +12,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kGranulesAcross = 6;  // a pellet of fewer says nothing about a continuum
+constexpr double kGranulesAcross = 6;  // smallest number of granules across a pellet that represents a continuum
 
 }  // namespace
 
@@ -45,7 +45,7 @@ Faults validate(const PelletCrush& test) {
 
 std::vector<ReadingKind> reading_kinds(const PelletCrush& test) {
   constexpr int pressed = 0, crushed = 1;
-  constexpr double solid = 0.9;  // of the die: more is no bed of grains
+  constexpr double solid = 0.9;  // of the die; denser is impossible for a bed of grains
   constexpr double strongest_pa = 1e6;
   const double full_g = 1e3 * solid * test.bulk_density_kg_m3 * filled_volume_m3(test);
   const double fill_mm = 1e3 * test.fill_height_m;

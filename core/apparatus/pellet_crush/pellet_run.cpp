@@ -15,7 +15,7 @@ double poured_grains(const PelletCrush& test) {
 
 namespace {
 
-constexpr double kEmptiest = 0.25;  // solid share of a die that is full
+constexpr double kEmptiest = 0.25;  // least solid fraction of a filled die
 
 World empty_die(const PelletCrush& test, const LooseGrains& grains) {
   World world;
@@ -34,7 +34,7 @@ World empty_die(const PelletCrush& test, const LooseGrains& grains) {
   return world;
 }
 
-/// Granules in the die of `test`, struck off level and at rest; or why it could not be filled.
+/// Granules in the die of `test`, struck off and at rest; or the reason why filling failed.
 FilledVessel fill_die(const PelletCrush& test, const RunOptions& options) {
   const double radius = 0.5 * test.die_diameter_m;
   FilledVessel filled = fill_vessel(
@@ -47,16 +47,16 @@ FilledVessel fill_die(const PelletCrush& test, const RunOptions& options) {
   return filled;
 }
 
-constexpr int kStepsPerLook = 64;           // at what has fallen off, and at what the punch has left behind
-constexpr double kPelletRestCap = 1;        // [s] simulated time granules are allowed for coming to rest
-constexpr double kBeyond = 1.25;            // of the die's radius: what lies farther out has fallen off
-constexpr double kMostFallen = 0.25;        // of the mass; beyond it there is no pellet any more
-constexpr double kStrainInterval = 0.0025;  // over which the force on the platen is averaged, as a load cell does
+constexpr int kStepsPerLook = 64;           // between two checks for fallen granules and for the clearance of the punch
+constexpr double kPelletRestCap = 1;        // [s] simulated time allowed for coming to rest
+constexpr double kBeyond = 1.25;            // of the die's radius: granules farther out have fallen off
+constexpr double kMostFallen = 0.25;        // of the mass; with more, the pellet has collapsed
+constexpr double kStrainInterval = 0.0025;  // over which the platen force is averaged, as by a load cell
 
-/// Place of a wall: the floor is before it, the die behind, until it is taken away. The punch becomes the platen.
+/// Index of the wall between floor and, until it is removed, die. The punch becomes the platen.
 constexpr std::size_t kPunch = 1;
 
-/// Pressing and crushing, phase by phase, each as a person in the laboratory would say it.
+/// Pressing and crushing, one function per phase.
 class Pressing {
  public:
   Pressing(const PelletCrush& test, const FilledVessel& filled, const RunOptions& options)
@@ -112,7 +112,7 @@ class Pressing {
     return runner_.settle({"press"}, kPelletRestCap);
   }
 
-  /// Until nothing follows it any more.
+  /// Withdraws the punch until no granule follows.
   std::optional<Failure> withdraw_punch() {
     const double speed = test_.press_speedup * test_.punch_speed_m_s;
     punch().velocity = {0, 0, speed};
@@ -154,7 +154,7 @@ class Pressing {
     return runner_.run({"crush", {}, weigh}, test_.final_strain * pellet_height_ / test_.platen_speed_m_s);
   }
 
-  /// The mean force of every interval of strain.
+  /// Mean force of each strain interval.
   void note_force() {
     const Wall& platen = world_.walls[kPunch];
     sum_ += platen.force.z;
@@ -204,7 +204,7 @@ Outcome simulate(const PelletCrush& test, const RunOptions& asked) {
   outcome.run = pressing.summary();
   outcome.run.steps += filled.run.steps;
   outcome.run.particle_steps += filled.run.particle_steps;
-  if (asked.fixed_wait_s) outcome.run.settled = false;  // nobody looked
+  if (asked.fixed_wait_s) outcome.run.settled = false;  // not checked
   const std::vector<CurvePoint>& curve = pressing.stress_over_strain();
   if (outcome.failure || curve.empty()) return outcome;
 

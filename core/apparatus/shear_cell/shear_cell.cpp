@@ -11,8 +11,8 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kGranulesAcross = 5;      // of the cell, and between the tips of its ribs
-constexpr double kFastestInertial = 0.01;  // inertial number beyond which stress is known to rise with the speed
+constexpr double kGranulesAcross = 5;      // smallest number across the cell, and between the tips of its ribs
+constexpr double kFastestInertial = 0.01;  // inertial number above which stress is known to rise with speed
 
 void check_ribs(FieldChecker& check, const ShearCell& test, const RibSizes& ribs, const std::string& name) {
   const auto at = [&](const char* field) { return name + "." + field; };
@@ -93,8 +93,8 @@ Faults validate(const ShearCell& test) {
 
 std::vector<ReadingKind> reading_kinds(const ShearCell& test) {
   constexpr int pressed = 0, sheared = 1;
-  constexpr double solid = 0.9;        // of the cell: more is no bed of grains
-  constexpr double largest_ratio = 5;  // of shear and normal stress; friction of granules gives 1, sticking adds to it
+  constexpr double solid = 0.9;        // of the cell; denser is impossible for a bed of grains
+  constexpr double largest_ratio = 5;  // of shear and normal stress; friction gives up to 1, cohesion adds to it
   const double full_g = 1e3 * solid * test.bulk_density_kg_m3 * filled_volume_m3(test);
   const double fill_mm = 1e3 * test.fill_height_m, way_mm = 1e3 * test.final_displacement_m;
   const ReadingRange mass{0, full_g}, share{0, 1}, height{0, 1.5 * fill_mm}, way{0, way_mm};

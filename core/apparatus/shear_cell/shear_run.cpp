@@ -13,15 +13,15 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kEmptiest = 0.25;  // solid share of a cell that is full
-constexpr double kCellRestCap = 1;  // [s] simulated time granules are allowed for coming to rest under the lid
+constexpr double kEmptiest = 0.25;  // least solid fraction of a filled cell
+constexpr double kCellRestCap = 1;  // [s] simulated time allowed for coming to rest under the lid
 constexpr int kIntervals = 256;     // of displacement, over each of which stress and height are averaged; with a step
                                     // so long that most of them have none there is nothing to read
 
-/// Places of the walls: the lid comes when the cell is filled.
+/// Indices of the walls; the lid is added after filling.
 enum : std::size_t { kBase, kBaseRibs, kLeft, kRight, kLid, kLidRibs };
 
-/// What stays where it is once a bed rests: its highest point and the mean height of its granules.
+/// Lengths that stay constant at rest: the highest point and the mean height of the granules.
 std::vector<double> heights_of_bed(const Particles& particles) {
   double sum = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) sum += particles.motion[i].position.z;
@@ -62,7 +62,7 @@ FilledVessel fill_cell(const ShearCell& test, const RunOptions& options) {
   return filled;
 }
 
-/// The phases after the filling, each as a person in the laboratory would say it.
+/// The phases after filling, one function each.
 class Shearing {
  public:
   Shearing(const ShearCell& test, const FilledVessel& filled, const RunOptions& options)
@@ -101,7 +101,7 @@ class Shearing {
     return world;
   }
 
-  /// A bed rests when the lid does, too.
+  /// The bed is at rest only when the lid is, too.
   std::vector<double> heights() const {
     std::vector<double> lengths = heights_of_bed(world_.particles);
     lengths.push_back(lid_height());
@@ -110,7 +110,7 @@ class Shearing {
   double lid_height() const { return std::get<Plane>(world_.walls[kLid].shape).point.z; }
   void press_lid(double dt) { press(servo_, {&world_.walls[kLid], &world_.walls[kLidRibs]}, dt); }
 
-  /// Until the bed rests under its load.
+  /// Presses the lid until the bed rests under its load.
   std::optional<Failure> press_lid_on() {
     const auto drive = [this](World&, double dt) { press_lid(dt); };
     const double way = lid_height() - test_.fill_height_m + test_.lid_ribs.height_m;
@@ -130,7 +130,7 @@ class Shearing {
     return runner_.run({"shear", drive}, test_.final_displacement_m / speed);
   }
 
-  /// What drags the lid along, and how high it is, averaged over every interval of displacement.
+  /// Averages the drag on the lid and its height over each interval of displacement.
   void note(double displacement, double dt) {
     stress_sum_ += dt * (world_.walls[kLid].force.x + world_.walls[kLidRibs].force.x) / area_m2(test_);
     height_sum_ += dt * lid_height();
@@ -146,13 +146,13 @@ class Shearing {
   World world_;
   Runner runner_;
   Servo servo_;
-  double pressed_height_ = 0;  ///< of the lid above the base, before anything is sheared [m]
+  double pressed_height_ = 0;  ///< of the lid above the base, before shearing [m]
   double stress_sum_ = 0, height_sum_ = 0, summed_ = 0;
   std::vector<CurvePoint> curve_;
   std::vector<double> heights_;
 };
 
-/// A peak of so few intervals is no noise: a granule's diameter takes longer.
+/// Largest mean over some consecutive intervals, against noise; together they are shorter than a granule's diameter.
 double highest_mean(const std::vector<double>& values) {
   constexpr std::size_t kTogether = kIntervals / 32;
   double highest = 0;
@@ -198,7 +198,7 @@ Outcome simulate(const ShearCell& test, const RunOptions& asked) {
   outcome.run = shearing.summary();
   outcome.run.steps += filled.run.steps;
   outcome.run.particle_steps += filled.run.particle_steps;
-  if (asked.fixed_wait_s) outcome.run.settled = false;  // nobody looked
+  if (asked.fixed_wait_s) outcome.run.settled = false;  // not checked
   if (outcome.failure || shearing.stress_over_displacement().size() < kIntervals / 2) return outcome;
   outcome.readings.set("bed.solid_fraction", solid / (area_m2(test) * shearing.pressed_height_m()));
   outcome.readings.set("bed.height_mm", 1e3 * shearing.pressed_height_m());

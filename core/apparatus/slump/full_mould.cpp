@@ -11,10 +11,10 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kCap = 0.6;          // [s] for the column to be enlarged
+constexpr double kCap = 0.6;          // [s] simulated time allowed for scaling the column
 constexpr double kLook = 0.01;        // [s] between two changes of size
-constexpr double kMostGrowth = 2e-3;  // in one look
-constexpr double kEven = 2e-4;        // missing size with which the column fits: 0.06 % of the volume
+constexpr double kMostGrowth = 2e-3;  // per change of size
+constexpr double kEven = 2e-4;        // remaining change of size at which the column fits: 0.06 % of the volume
 
 void enlarge(Particles& grains, double k) {
   for (std::int32_t i = 0; i < grains.count(); ++i) {
@@ -26,7 +26,7 @@ void enlarge(Particles& grains, double k) {
 }  // namespace
 
 Fit fit_of(const Mould& mould, const Particles& grains, double radius) {
-  // Fields of the mould's side that are wide enough for one grain to touch it.
+  // Patches of the mould's side, each wide enough for one grain to touch it.
   const double field = 4 * radius;
   const int layers = std::max(1, static_cast<int>(mould.height_m / field));
   const int sectors = std::max(6, static_cast<int>(2 * std::numbers::pi * narrower_radius_m(mould) / field));
@@ -47,16 +47,16 @@ Fit fit_of(const Mould& mould, const Particles& grains, double radius) {
 
 Packing full_mould(const SlumpTest& test, const Packing& packing, const RunOptions& asked) {
   RunOptions options = asked;
-  options.steps.energy_balance = false;  // the column is worked on from outside
-  options.steps.fixed_step_s.reset();    // meant for the test
+  options.steps.energy_balance = false;  // the column is scaled, which is no work of the model
+  options.steps.fixed_step_s.reset();    // applies to the test only
   World world = world_in_mould(test, packing);
-  world.drag = kColumnDrag;  // the grains feel their cohesion all at once
+  world.drag = kColumnDrag;  // cohesion acts on all grains at once
   Runner runner(world, options, rest_measure_of_heap);
   Packing full = packing;
   const Mould& mould = test.mould;
   const double width = mould.base_radius_m + mould.top_radius_m;
   double size = 1;
-  int even = 0;  // looks in a row; what is lifted has had two of them to come to rest at its last size
+  int even = 0;  // consecutive checks that fit; after two the column has come to rest at its last size
   for (double waited = 0; even < 2; waited += kLook) {
     const PhaseLeft looks{even > 0 ? 0 : kLook, std::max(0.0, kCap - waited) + 2 * kLook};
     full.failure = runner.run({.name = "fill.settle", .after = looks}, kLook);

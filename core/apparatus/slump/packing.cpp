@@ -15,33 +15,33 @@ namespace pastefit {
 
 namespace {
 
-// Of a grain before it grows, over its size: so that all find a place at random, evenly, and no column of them stands
-// high above the mould.
+// Size of a grain before growth over its final size: small enough for random, even placement without a column high
+// above the mould.
 constexpr double kStartSize = 0.7;
-constexpr double kLoosest = 0.55;      // solid fraction when all have grown, before they sink
-constexpr double kGrowthSpeed = 0.04;  // [m/s] of a grain's surface; nothing sinks faster meanwhile
+constexpr double kLoosest = 0.55;      // solid fraction after growth, before sinking
+constexpr double kGrowthSpeed = 0.04;  // [m/s] of a grain's surface; also the limit of the sinking speed during growth
 constexpr int kGrowthSteps = 20;
-constexpr double kOverfill = 1.12;  // solid volume of all grains over that of a mould packed to kSolidFraction
+constexpr double kOverfill = 1.12;  // solid volume of all grains over that of a mould at kSolidFraction
 constexpr double kSolidFraction = 0.62;
-constexpr double kHighestThrow = 1;  // [m], more than growth throws the stiffest grain upwards
+constexpr double kHighestThrow = 1;  // [m]; growth throws even the stiffest grain less high
 constexpr double kLidSpeed = 0.2;    // [m/s]
 constexpr double kFillCap = 4.0;     // [s]
-constexpr double kScoopSpeed = 1.0;  // [m/s] at which grains sink
-constexpr double kGentle = 0.2;      // deepest overlap of a falling grain, over its radius
-constexpr double kDeepest = 0.9;     // overlap over the smaller radius, of a small grain between large ones that grow
-constexpr double kEmptiest = 0.45;   // solid fraction below which the fill has a hole
-// Grains that have landed are struck off while they still swing a little, and so they are when the lid has pressed
-// them level: what is left dies out when the column comes to rest under its own laws.
+constexpr double kScoopSpeed = 1.0;  // [m/s] sinking speed of grains
+constexpr double kGentle = 0.2;      // deepest overlap of a falling grain over its radius
+constexpr double kDeepest = 0.9;     // overlap over the smaller radius, of a small grain between growing large ones
+constexpr double kEmptiest = 0.45;   // least solid fraction; less means a hole in the fill
+// Grains are struck off while they still oscillate a little, and pressed level likewise: the rest decays when the
+// column comes to rest under the candidate's laws.
 constexpr RestCriterion kLanded{.window_s = 0.02, .windows = 1, .speed_over_fall = 0.15, .change_over_radius = 0.1};
-// A longer step than that of a test: drag takes what energy it may make, and nobody reads more than where grains lie.
+// A longer step than in a test: drag absorbs the energy it may create, and only positions are used.
 constexpr double kSafety = 0.95;
 constexpr double kImpactResolution = 6;
 
-// Frictions and steps of resting overlap at which moulds are filled; candidates between them share one.
+// Frictions, and steps of the resting overlap, at which moulds are filled; candidates in between share a fill.
 constexpr double kFrictions[] = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5};
 constexpr double kRestingOverlapStep = 0.005;
-// [radii] What has its centre less than this below the rim is scraped away. Less of it, and the lid presses the rest so
-// hard that the column rises by 1 % when it is taken off.
+// [radii] Grains with their centre less than this below the rim are removed. With a smaller value the lid presses so
+// hard that the column rises by 1 % when it is removed.
 constexpr double kScrape = 0.7;
 
 /// Solid volume of the grains that fill mould and hopper.
@@ -49,7 +49,7 @@ double drawn_volume(const Mould& mould) {
   return kOverfill * kSolidFraction * volume_m3(mould);
 }
 
-/// Grains of the test, in the order in which they are drawn, until they fill so much.
+/// Draws grains of the test until they have this solid volume.
 void draw_grains(const SlumpTest& test, double solid_volume, Packing& packing) {
   while (packing.solid_volume_m3 < solid_volume) {
     packing.radii.push_back(draw_radius(test.grains, test.packing_seed, packing.radii.size()));
@@ -57,7 +57,7 @@ void draw_grains(const SlumpTest& test, double solid_volume, Packing& packing) {
   }
 }
 
-/// Frictional grains without cohesion, so that candidates may share the fill. Or the test's own.
+/// Frictional grains without cohesion, so that candidates can share the fill; or the test's own model.
 ContactModel filling_model(const SlumpTest& test, const RunOptions& options) {
   if (options.own_fill) return test.contact;
   ContactModel model;
@@ -70,7 +70,7 @@ ContactModel filling_model(const SlumpTest& test, const RunOptions& options) {
 }
 
 Wall make_wall(std::string name, Shape shape, const SlumpTest& test, const RunOptions& options) {
-  // Smooth, so that no wall holds the fill up: it would sink when the wall is the test's own.
+  // Smooth: friction at a wall would carry the fill, which would sink when the test's own wall replaces it.
   const WallContact shared{1e9, 0.3, 0.2, 0, 0, 0};
   const WallContact& own = name == "floor" ? test.table_wall : test.mould_wall;
   Wall wall;
@@ -99,7 +99,7 @@ double highest(const Packing& packing) {
   return top;
 }
 
-/// Mould, floor and a hopper of the mould's upper width, so high that no grain is thrown out of it.
+/// Mould, floor and a hopper as wide as the mould's top, high enough to catch every grain.
 World filling_world(const SlumpTest& test, const RunOptions& options, const Packing& packing) {
   const Mould& mould = test.mould;
   World world;
@@ -121,8 +121,8 @@ void take_work(Packing& packing, const RunSummary& run) {
   packing.run.simulated_s += run.simulated_s;
 }
 
-/// Speed at which grains sink: as a scoop lets them down, but no faster than presses a grain that hits a plane of its
-/// own kind in by `kGentle` of its radius (Hertz; the same for all sizes).
+/// Sinking speed of grains: that of a scoop, but limited so that a grain that hits a plane of its own kind overlaps by
+/// at most `kGentle` of its radius (Hertz; independent of size).
 double sinking_speed(const World& world) {
   const double modulus = 0.5 * world.grain_pair.normal_stiffness;
   const double harmless =
@@ -130,22 +130,22 @@ double sinking_speed(const World& world) {
   return std::min(kScoopSpeed, harmless);
 }
 
-/// What is no higher and no wider than before is at rest, though a single grain may still roll about on top.
+/// The fill is at rest when its height and width no longer change; single grains may still roll on top.
 std::vector<double> rest_measure_of_fill(const Particles& grains) {
   auto lengths = rest_measure_of_heap(grains);
   lengths.erase(lengths.begin());  // the highest point
   return lengths;
 }
 
-/// How much longer than equal grains these take to grow: small ones between large ones have to find their way out.
+/// Growth time relative to equal grains: small grains between large ones have to find their way out.
 double patience_with(const GrainSizes& sizes) {
   constexpr double even = 3;
   if (sizes.distribution == SizeDistribution::mono) return 1;
   return std::max(1.0, sizes.largest_m / sizes.smallest_m / even);
 }
 
-/// Small grains at random places grow to their size where they are, until they fill mould and hopper loosely. They lie
-/// in no layers, as grains do that are let down from a lattice. Their mass is that of the grown grain all the time.
+/// Small grains at random places grow to full size until they fill mould and hopper loosely. They form no layers,
+/// unlike grains let down from a lattice. Their mass is always that of the grown grain.
 std::optional<Failure> grow(const SlumpTest& test, World& world, Runner& runner) {
   const double step =
       (1 - kStartSize) * test.grains.radius_m / kGrowthSpeed / kGrowthSteps * patience_with(test.grains);
@@ -163,8 +163,8 @@ std::optional<Failure> grow(const SlumpTest& test, World& world, Runner& runner)
   return {};
 }
 
-/// The grains sink as in a liquid. A free fall crushes soft ones, and packs 0.62 instead of 0.59: a weak paste then
-/// stands 20 mm lower.
+/// Lets the grains sink as in a liquid. A free fall crushes soft grains and packs to 0.62 instead of 0.59; a weak paste
+/// is then 20 mm lower after lifting.
 void let_sink(const SlumpTest& test, const RunOptions& options, Packing& packing) {
   std::vector<double> small = packing.radii;
   for (double& radius : small) radius *= kStartSize;
@@ -179,7 +179,7 @@ void let_sink(const SlumpTest& test, const RunOptions& options, Packing& packing
   take_grains(world, packing);
 }
 
-/// What stands out above the rim is scraped away; a lid presses the rest level with the rim.
+/// Removes what protrudes above the rim; a lid presses the rest level with it.
 void strike_off(const SlumpTest& test, const RunOptions& options, Packing& packing) {
   const double rim = test.mould.height_m;
   std::size_t kept = 0;
@@ -207,7 +207,7 @@ void strike_off(const SlumpTest& test, const RunOptions& options, Packing& packi
   take_grains(world, packing);
 }
 
-/// Large grains that grow push small ones between them away: where sizes differ widely, it is them that failed.
+/// Large growing grains push small ones away: if sizes differ widely, the failure is attributed to that.
 void blame_sizes(Packing& packing) {
   constexpr double wide = 3;
   if (!packing.failure || packing.failure->reason == FailureReason::stopped || packing.radii.empty()) return;
@@ -236,7 +236,7 @@ Filling filling_of(const SlumpTest& test) {
   Filling filling;
   for (const double friction : kFrictions)
     if (friction <= test.contact.friction) filling.friction = friction;
-  // Exact: the last bits of exp2 differ between processors.
+  // Computed exactly: the last bits of exp2 differ between processors.
   const int half_octaves = static_cast<int>(std::lround(2 * std::log2(test.contact.youngs_modulus_pa)));
   const int octaves = half_octaves >= 0 ? half_octaves / 2 : (half_octaves - 1) / 2;
   filling.youngs_modulus_pa = std::ldexp(half_octaves == 2 * octaves ? 1.0 : std::numbers::sqrt2, octaves);
@@ -247,7 +247,7 @@ Filling filling_of(const SlumpTest& test) {
 
 std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOptions& asked) {
   RunOptions options = asked;
-  // The step and the energy balance are meant for the test; the packing is always the same.
+  // The step and the energy balance apply to the test; the packing is always the same.
   options.steps.fixed_step_s.reset();
   options.steps.safety = kSafety;
   options.steps.impact_resolution = kImpactResolution;
@@ -287,7 +287,7 @@ constexpr double kGroundDepth = 0.1;  // [m] below the table
 }  // namespace
 
 Shape table_on_seat(const SlumpTest& test) {
-  // A shell without height from the edge to the axis.
+  // A shell of zero height from the edge to the axis.
   if (test.drop && test.drop->motion == TableMotion::vertical) return Shell{{}, 0.5 * test.drop->length_m, 0, 0};
   Plate plate;
   plate.half_length = plate.half_width = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);

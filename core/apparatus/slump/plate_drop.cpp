@@ -16,7 +16,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kDropCap = 2.0;  // [s] for the plate to reach its stop
+constexpr double kDropCap = 2.0;  // [s] allowed for the plate to reach its stop
 
 /// The phases of one drop.
 struct DropPhases {
@@ -26,7 +26,7 @@ constexpr DropPhases kFirst{"step2.raise", "step2.drop", "step2.rest"};
 constexpr DropPhases kNext{"drops.raise", "drops.fall", "drops.rest"};
 constexpr DropPhases kLast{"drops.raise", "drops.fall", "after_drops.rest"};
 
-/// A plate under a heap, raised and dropped.
+/// Raises and drops a plate with a heap on it.
 class Drop {
  public:
   Drop(const SlumpTest& test, World world, const EnergyBalance& before, const RunOptions& options)
@@ -49,7 +49,7 @@ class Drop {
     return runner_.show(kFirst.rest);
   }
 
-  /// The drops after it, in the rhythm of the test; `after_each(number)` after each of them, counted from 2.
+  /// Further drops at the period of the test; calls `after_each(number)` after each of them, counted from 2.
   std::optional<Failure> go_on(const std::function<void(int)>& after_each) {
     for (int number = 2; number <= plate().drops; ++number) {
       const bool last = number == plate().drops;
@@ -71,7 +71,7 @@ class Drop {
 
   std::optional<Failure> rest(std::string_view phase) { return runner_.settle({phase}, kRestCap); }
 
-  /// Nobody reads a heap between two drops: it is calm for one short window, or the next drop comes.
+  /// No reading is taken between two drops: wait until the heap is calm for one short window, or until the next drop.
   std::optional<Failure> rest_between(std::string_view phase) {
     if (options_.fixed_wait_s) return rest(phase);
     const RestCriterion to_be_read = options_.rest;
@@ -88,14 +88,14 @@ class Drop {
     return {};
   }
 
-  /// Turns the plate up about its hinge with a smooth start and stop.
+  /// Rotates the plate about its hinge with a smooth start and stop.
   std::optional<Failure> turn_up(const DropPhases& phases) {
     const double angle = std::asin(plate().lift_height_m / plate().length_m);
     const double start = world_.time, duration = plate().lift_duration_s;
     const auto turn = [&](World& world, double dt) {
       const double before = turned_share((world.time - start) / duration);
       const double after = turned_share((world.time + dt - start) / duration);
-      // Positive about y lowers the free edge.
+      // Positive rotation about y lowers the free edge.
       table_.angular_velocity = {0, -angle * (after - before) / dt, 0};
     };
     table_.pivot = {-0.5 * plate().length_m, 0, 0};
@@ -104,8 +104,8 @@ class Drop {
     return {};
   }
 
-  /// A cam raises the table upright, and so slowly that the heap on it does not notice: both are set up at once. What
-  /// has left the table stays below.
+  /// Raises a vertical table and the heap on it at once, since a cam lifts too slowly to disturb the heap. Grains off
+  /// the table stay below.
   void set_up() {
     double work = 0;
     Particles& grains = world_.particles;
@@ -118,7 +118,7 @@ class Drop {
     runner_.lifted(work);
   }
 
-  /// Lets the plate go: a rigid body under its own weight and the grains on it, stopped dead on its seat.
+  /// Releases the plate: a rigid body under its own weight and the grains on it, stopped dead on its seat.
   std::optional<Failure> let_fall(const DropPhases& phases) {
     stopped_ = false;
     const Rotor rotor{plate().mass_kg, plate().mass_kg * plate().length_m * plate().length_m / 3};
@@ -141,8 +141,8 @@ class Drop {
                    "the plate did not fall to its stop; check its mass and lift height"};
   }
 
-  /// One step of a table that falls upright, M dv/dt = F_grains - M g; true when it has arrived on its seat, at the end
-  /// of the step.
+  /// One step of a table that falls vertically, M dv/dt = F_grains - M g; true when it reaches its seat, at the end of
+  /// the step.
   bool sink_freely(double gravity, double dt) {
     const double above = std::get<Shell>(table_.shape).base.z;
     double& speed = table_.velocity.z;
@@ -152,7 +152,7 @@ class Drop {
     return true;
   }
 
-  /// Share of the angle turned through at share s of the time: smooth start and stop.
+  /// Share of the angle at share s of the time, with a smooth start and stop.
   static double turned_share(double s) {
     s = std::clamp(s, 0.0, 1.0);
     return s * s * (3 - 2 * s);
@@ -163,10 +163,10 @@ class Drop {
   World world_;
   Runner runner_;
   Wall& table_;
-  bool stopped_ = false;  ///< the plate has fallen
+  bool stopped_ = false;  ///< the plate has reached its stop
 };
 
-/// The run of one side after that of others.
+/// Adds the run of one side to those of earlier sides.
 void add_side(RunSummary& sum, const RunSummary& run, double since_s, bool first) {
   sum.steps += run.steps;
   sum.particle_steps += run.particle_steps;
@@ -177,7 +177,7 @@ void add_side(RunSummary& sum, const RunSummary& run, double since_s, bool first
   sum.settled = sum.settled && run.settled;
 }
 
-/// All drops after the first one, and what is read of them.
+/// All further drops and their readings.
 std::optional<Failure> drop_again(Drop& drop, const Ruler& ruler, Outcome& outcome) {
   outcome.curve = Curve{"spread_over_drops", "drops", "spread_mm", {{1, 1e3 * ruler.spread_m(drop.grains())}}};
   return drop.go_on([&](int number) {
@@ -194,7 +194,7 @@ Outcome drop_plate(const SlumpTest& test, const World& rested, const Ruler& rule
   World world = rested;
   std::vector<Readings> of_sides;
   Readings after_drops;
-  const int sides = test.drop->motion == TableMotion::hinged ? 2 : 1;  // opposite ones, the hinge is on in turn
+  const int sides = test.drop->motion == TableMotion::hinged ? 2 : 1;  // hinge on opposite sides in turn
   for (int side = 0; side < sides; ++side) {
     RunOptions of_side = options;
     if (options.watch)

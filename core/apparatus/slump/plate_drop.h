@@ -7,18 +7,18 @@
 
 namespace pastefit {
 
-/// Step 2 of the slump test: the plate is raised, and let go; and all drops after it.
+/// Step 2 of the slump test: the plate is raised and released; then all further drops.
 ///
-/// The top of a heap is never level after step 1, by luck, and most of that tilt (0.75 to 0.9 of it) is still there
-/// after the drop of a hinged plate. So the heap is dropped twice, with the hinge on one side and on the opposite one,
-/// and readings are means: the tilt goes out of the sag whatever share of it is left, and the sag's noise falls to a
-/// third. A table that falls upright has no sides: its heap is dropped once.
+/// After step 1 the top of a heap has a random tilt, of which 0.75 to 0.9 remain after the drop of a hinged plate. So
+/// the heap is dropped twice, with the hinge on opposite sides, and readings are means of both: the tilt cancels in the
+/// sag, and the noise of the sag falls to a third. A table that falls vertically has no sides: its heap is dropped
+/// once.
 ///
-/// With several drops the heap of the first side goes on: raised and dropped again, at rest in between or until the
-/// rhythm of the test is over. Their readings are "after_drops."; the curve is the spread after each drop.
+/// Further drops continue with the heap of the first side: it is raised and dropped again, at rest or at the period of
+/// the test, whichever comes first. Their readings are "after_drops."; the curve is the spread after each drop.
 ///
-/// `world`: the heap at rest, the plate as its wall `table`. `ruler`: that of its step 1.
-/// `before`: the energy balance of step 1, which the drops go on with.
+/// `world`: the heap at rest, with the plate as its wall `table`. `ruler`: that of step 1.
+/// `before`: the energy balance of step 1, which the drops continue.
 Outcome drop_plate(const SlumpTest& test, const World& world, const Ruler& ruler, const EnergyBalance& before,
                    const RunOptions& options);
 

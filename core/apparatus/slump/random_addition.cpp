@@ -12,10 +12,10 @@ namespace pastefit {
 
 namespace {
 
-constexpr int kTries = 2000;  // in vain, before the spheres may lie higher up
+constexpr int kTries = 2000;  // failed tries before spheres may be placed higher
 
-/// Spheres by the cell of a cubic grid in which their centres lie. Cells are as wide as the largest sphere, so that
-/// spheres which meet are in the same cell or in neighbouring ones.
+/// Spheres by the cell of a cubic grid that contains their centres. Cells are as wide as the largest sphere, so that
+/// touching spheres are in the same cell or in neighbouring ones.
 class Placed {
  public:
   Placed(double half_width, double largest_radius)
@@ -62,7 +62,7 @@ class Placed {
   std::vector<std::vector<Sphere>> spheres_;
 };
 
-/// Height to which so much volume fills mould and hopper.
+/// Height to which this volume fills mould and hopper.
 double filled_to(const Mould& mould, double volume) {
   const double above = std::max(0.0, volume - volume_m3(mould));
   return mould.height_m + above / (std::numbers::pi * mould.top_radius_m * mould.top_radius_m);
@@ -84,7 +84,7 @@ std::vector<Vec3> random_addition(const Mould& mould, const std::vector<double>&
   double top = filled_to(mould, volume / solid_fraction);
   const double half_width = wider_radius_m(mould);
   const double slope = (mould.base_radius_m - mould.top_radius_m) / mould.height_m;
-  const double along_slope = std::sqrt(1 + slope * slope);  // of the side, over its height
+  const double along_slope = std::sqrt(1 + slope * slope);  // slant length of the side over its height
   Placed placed(half_width, *std::max_element(radii.begin(), radii.end()));
   const RandomStream place(seed, "random-addition");
   std::uint64_t draw = 0;

@@ -36,12 +36,12 @@ Ruler::Heights Ruler::heights(const Particles& grains) const {
   return heights;
 }
 
-/// As the laboratory reads it.
+/// The height that the laboratory measures.
 double Ruler::read_height(const Heights& heights) const {
   return test_.reading.height == HeightReading::axis ? heights.surface : heights.highest;
 }
 
-/// A table that is covered to its corners is read as long as it is.
+/// Limit of a width: that of a table covered to its corners.
 double Ruler::widest_m() const {
   return std::max(test_.table_length_m, 2 * test_.mould.base_radius_m);
 }

@@ -10,26 +10,26 @@
 
 namespace pastefit {
 
-/// Reads a heap as the laboratory does, against the table on which it stands.
+/// Measures a heap as the laboratory does, relative to its table.
 ///
-/// Between the tops of coarse grains a surface lies below the level that the laboratory's paste would have: in the
-/// struck-off mould by `roughness` below the rim. Heights of the surface are read with that added, at any time; a
-/// grain's top is where it is. A height is never above the highest point, and neither is above the mould.
+/// The surface between the tops of coarse grains is lower than that of a paste, in the struck-off mould by `roughness`
+/// below the rim. This is added to all heights of the surface; the top of a grain needs no correction. A height is
+/// never above the highest point, nor that above the mould.
 class Ruler {
  public:
-  /// The grains in the mould, before it is lifted.
+  /// The grains in the mould before the lift.
   Ruler(const SlumpTest& test, double roughness_m, const Particles& in_mould);
 
-  /// Sets the readings of this step, "step1" or "step2". What a heap does not have is absent: no width of nothing.
+  /// Sets the readings of this step, "step1" or "step2". Readings that a heap does not have are absent.
   void read(const Particles& grains, std::string_view step, Readings& readings) const;
 
-  /// Sets "after_drops.height_mm", "after_drops.spread_mm" and the share that was spilled.
+  /// Sets "after_drops.height_mm", "after_drops.spread_mm" and the spilled share.
   void read_after_drops(const Particles& grains, Readings& readings) const;
 
-  /// Width of the heap, the mean over all directions [m]; at most that of the table.
+  /// Width of the heap, mean over all directions [m]; at most that of the table.
   double spread_m(const Particles& grains) const;
 
-  /// No reading of a height is above this and the highest point of any grain [m].
+  /// Heights read are at most this above the highest point of the grains [m].
   double above_highest_m() const { return roughness_m_; }
 
  private:
@@ -44,22 +44,21 @@ class Ruler {
 
   const SlumpTest& test_;
   double roughness_m_;
-  std::vector<char>
-      on_top_;  ///< by identity: whether it lay in the struck-off top, which soft grains may carry below the rim
+  std::vector<char> on_top_;  ///< by identity: was in the struck-off top, which soft grains may carry below the rim
 };
 
-/// Shift of the struck-off top's middle over the mould's base radius beyond which a heap counts as sheared off.
-/// EN 12350-2 and ASTM C143 have such a test repeated, and give no number. Heaps that flow on all sides shift by
+/// Shift of the centre of the struck-off top over the mould's base radius beyond which a heap counts as sheared off. EN
+/// 12350-2 and ASTM C143 require such a test to be repeated but give no number. Heaps that flow on all sides shift by
 /// 0.15 +- 0.08 (96 packings from 300 to 2,000 Pa), those that break by half a radius.
 inline constexpr double kShearedShift = 0.4;
 
-/// Whether the heap sheared off when the mould was lifted; not if its shift is unknown.
+/// True if the heap sheared off when the mould was lifted; false if its shift is unknown.
 bool has_sheared(const SlumpTest& test, const Readings& readings);
 
-/// How far the top shifted, over the shift beyond which a heap counts as sheared off; NaN: not read.
+/// Shift of the top over the shift beyond which a heap counts as sheared off; NaN: not read.
 double shear_index(const SlumpTest& test, const Readings& readings);
 
-/// The grains that have not left the table.
+/// The grains that are still on the table.
 Particles on_table(const Particles& grains);
 
 }  // namespace pastefit

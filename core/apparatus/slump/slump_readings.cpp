@@ -6,8 +6,8 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kLongestFlow = 600;  // [s] of a test that is simulated
-constexpr double room = 0.02;         // for the tolerances of an apparatus
+constexpr double kLongestFlow = 600;  // [s] longest simulated flow time
+constexpr double room = 0.02;         // margin for the accuracy of the apparatus
 
 constexpr std::string_view highest_is_above = "the highest point of a heap is not below its height";
 constexpr std::string_view not_raised = "a drop does not raise a heap";
@@ -19,7 +19,7 @@ constexpr std::string_view published =
     "published for the slump: 21 mm as the 95 % limit between two results (ASTM C143-98), so about 7.5";
 constexpr std::string_view published_spread =
     "published for slump flows of 480 to 680 mm: 27 mm of one operator (ASTM C1611)";
-// Both are of an Abrams cone; taken in proportion for other moulds.
+// Both for an Abrams cone; scaled to other moulds.
 constexpr double published_mould_mm = 300, published_height_mm = 7.5, published_spread_mm = 27;
 constexpr Lack no_plate{
     "the apparatus has no plate or table that drops",
@@ -32,7 +32,7 @@ constexpr Lack one_drop{
     "give their number: 15 for EN 12350-5 (apparatus.drop_plate.drops, or --drops of pastefit new); the "
     "spread after a single drop is step2"};
 
-/// What the sizes of mould and table allow for.
+/// Largest readings that mould and table allow.
 struct SlumpRanges {
   explicit SlumpRanges(const SlumpTest& test)
       : mould_mm(1e3 * test.mould.height_m),
