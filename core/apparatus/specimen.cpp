@@ -28,7 +28,7 @@ void check_bridge(FieldChecker& check, const Bridge& bridge, double radius) {
   check.range("contact.bridge.c_n", bridge.c_n, 0, 1e9, "N");
   check.range("contact.bridge.d_c_m", bridge.d_c_m, -2 * radius, -1e-6 * radius, "m");
   if (bridge.shape != BridgeShape::polynomial) return;
-  // Rounding in converting coordinates to a, b, c must not count as a fault.
+  // Tolerance for rounding in the conversion to a, b, c.
   const double slack = 1e-9 * bridge.c_n;
   const double gap = bridge.d_c_m;
   const double at_rupture = (bridge.a_n_m2 * gap + bridge.b_n_m) * gap + bridge.c_n;
@@ -43,7 +43,7 @@ void check_bridge(FieldChecker& check, const Bridge& bridge, double radius) {
                 "choose a, b, c, d_c with a d_c^2 + b d_c + c >= 0");
 }
 
-/// Of a normal distribution.
+/// Share of a normal distribution within the bounds.
 double share_between_bounds(const GrainSizes& sizes) {
   const auto below = [&](double radius) {
     return 0.5 * std::erfc((sizes.radius_m - radius) / (sizes.standard_deviation_m * std::numbers::sqrt2));
@@ -78,8 +78,7 @@ double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n)
 
 namespace {
 
-/// Of the filled mould the grains take so much; the density of grains follows from the filling, which is not known
-/// here.
+/// Assumed solid fraction of the filled mould; the density of grains follows from the filling, which is not known here.
 constexpr double kFilledShare = 0.6;
 
 void check_viscosity(FieldChecker& check, const Specimen& specimen) {
@@ -142,9 +141,9 @@ void check_specimen(FieldChecker& check, const Specimen& specimen) {
   if (contact.cohesion_n) check.range("contact.cohesion_n", *contact.cohesion_n, 0, 1e9, "N");
   check_bridge(check, contact.bridge, radius);
   if (contact.youngs_modulus_pa > 0 && contact.poissons_ratio < 1 && radius > 0) {
-    // Beyond it neighbours of neighbours meet, and contact laws of touching spheres mean nothing.
+    // Beyond this overlap, second neighbours touch and contact laws of pairs are invalid.
     constexpr double kMostSqueezed = 0.1;
-    constexpr double kStiffestPa = 1e11;  // that a study may give
+    constexpr double kStiffestPa = 1e11;  // largest modulus in a study
     const double squeezed = resting_overlap(contact, radius);
     const double needed_pa = contact.youngs_modulus_pa * std::pow(squeezed / kMostSqueezed, 1.5);
     const bool in_reach = needed_pa <= kStiffestPa;
@@ -164,7 +163,7 @@ namespace {
 
 constexpr double kLoosest = 2.15;  // spacing of the lattice over the largest radius
 
-/// Grain n of a scene, put there.
+/// Adds a grain at this place.
 void add_grain(LooseGrains& grains, const Vec3& place, double radius) {
   grains.centres.push_back(place);
   grains.radii.push_back(radius);
@@ -203,7 +202,7 @@ LooseGrains pour(const GrainSizes& sizes, std::uint64_t seed, double enough, dou
 LooseGrains pour(const GrainSizes& sizes, std::uint64_t seed, double enough, const OpenBox& box) {
   const double largest = largest_radius(sizes), spacing = kLoosest * largest;
   const double jitter = 0.5 * spacing - largest;
-  const double room = box.width_m - 2.02 * largest - 2 * jitter;  // for the lattice
+  const double room = box.width_m - 2.02 * largest - 2 * jitter;  // width of the lattice
   const int along = static_cast<int>(box.length_m / spacing), across = static_cast<int>(room / spacing) + 1;
   const double step_x = box.length_m / along, step_y = across > 1 ? room / (across - 1) : 0;
   const RandomStream place(seed, "pour-position");

@@ -11,16 +11,16 @@
 
 namespace pastefit {
 
-/// Attraction laws: how hard two grains pull on each other across a gap. Each is a type with
+/// Attraction laws: force of two grains on each other across a gap. Each is a type with
 ///     choice, word   its name in the program and in files;
-///     parameters     names of the scale-free numbers it is made of; `cohesion_factor` is one of each surface;
-///     make(contact, radius, value)   its numbers for grains of that mean radius, from `value(name)` of its parameters;
-///     present        false: there is none, and the rest is not needed but for the ends;
-///     at_touch, rupture_gap(bridge, radius)   the ends of its range for reference grains: force at d = 0 [N], gap [m];
-///     set(pair, bridge, radius, share)   its own constants (those of the ends are there), `share` of its force;
+///     parameters     names of its scale-free parameters; each surface has its own `cohesion_factor`;
+///     make(contact, radius, value)   sets its constants for grains of this mean radius from `value(name)`;
+///     present        false: no attraction; only the ends are needed;
+///     at_touch, rupture_gap(bridge, radius)   ends of its range for reference grains: force at d = 0 [N], gap [m];
+///     set(pair, bridge, radius, share)   its constants of a pair (those of the ends are set), `share` of its force;
 ///     at(k, overlap d <= 0, size scale s = 2 R*/R_ref) -> {force [N], |dF/dd| [N/m]};
-///     work(k, d, s)   the work [J] that pulls the pair from d to the rupture gap.
-/// F/s^2 is a function of d/s, so that grains of other sizes follow the scaling rule of coarse graining.
+///     work(k, d, s)   work [J] to separate the pair from d to the rupture gap.
+/// F/s^2 is a function of d/s, so that other grain sizes follow coarse graining.
 /// The last two are computed in packs too (laws/pack.h). To add one: core/README.md.
 
 template <class Real>
@@ -43,9 +43,9 @@ struct NoAttraction {
   static void set(PairConstants&, const Bridge&, double, double) {}
 };
 
-/// What all attractions are made of: c/R^2, -d_c/R, 2 offset/-d_c, the cohesion over c, and the viscosity. The shells
-/// of two grains meet across twice the offset; beyond the rupture gap that acts on nothing. Touch formation has no
-/// formation_ratio: the shells then reach as far as the bridge, whatever holds it.
+/// Parameters of all attractions: c/R^2, -d_c/R, 2 offset/-d_c, the cohesion over c, and the viscosity. The liquid
+/// shells of two grains meet at a gap of twice the offset; beyond the rupture gap this has no effect. With touch
+/// formation there is no formation_ratio: the shells then reach as far as the bridge.
 struct AcrossGap {
   static constexpr std::array<std::string_view, 6> parameters{"strength_pa",    "rupture_gap_ratio", "formation_ratio",
                                                               "cohesion_ratio", "cohesion_factor",   "viscosity_pa_s"};
@@ -56,7 +56,7 @@ struct AcrossGap {
   struct Ends {
     double at_touch_n, rupture_gap_m;
   };
-  /// Begins the bridge anew, with formation and offset as they were and as they are to be.
+  /// Starts the bridge anew: keeps its formation and sets its offset.
   template <class Value>
   static Ends begin(ContactModel& contact, BridgeShape shape, double radius, const Value& value) {
     const BridgeFormation formation = contact.bridge.formation;
@@ -72,7 +72,7 @@ struct AcrossGap {
   }
 };
 
-/// What laws have in common whose ends are given: c and d_c.
+/// Laws that are given by their ends c and d_c.
 struct GivenEnds : AcrossGap {
   static double at_touch(const Bridge& bridge, double) { return bridge.c_n; }
   static double rupture_gap(const Bridge& bridge, double) { return -bridge.d_c_m; }
@@ -100,7 +100,7 @@ struct PolynomialAttraction : GivenEnds {
     begin(contact, choice, radius, value);
     Bridge& bridge = contact.bridge;
     const double k = value("curvature"), c = bridge.c_n, d_c = bridge.d_c_m;
-    const double lost = 1 - value("rupture_force_ratio");  // share of the attraction that is gone at rupture
+    const double lost = 1 - value("rupture_force_ratio");  // share of the attraction lost at rupture
     bridge.a_n_m2 = k * lost * c / (d_c * d_c);
     bridge.b_n_m = lost * (1 + k) * c / -d_c;
   }
@@ -141,7 +141,7 @@ struct LinearAttraction : PolynomialAttraction {
   }
 };
 
-/// F = c exp(3 d/|d_c|). The exponent lies in [-3, 0]: the eighth power of a Taylor series of order 11 is exact to
+/// F = c exp(3 d/|d_c|). The exponent is in [-3, 0]: the eighth power of a Taylor series of order 11 is accurate to
 /// 1e-14.
 struct ExponentialAttraction : GivenEnds {
   static constexpr BridgeShape choice = BridgeShape::exponential;
@@ -168,7 +168,7 @@ struct ExponentialAttraction : GivenEnds {
 };
 
 /// F = c/(1 + 1.05 S + 2.5 S^2), S = gap sqrt(R/V): liquid bridge between equal spheres (Willett et al. 2000, Langmuir
-/// 16:9396). Scale-free: the liquid wets the grains, and its tension and volume are those of the wanted ends.
+/// 16:9396). Scale-free: perfectly wetting; surface tension and volume follow from c and d_c.
 struct CapillaryAttraction : AcrossGap {
   static constexpr BridgeShape choice = BridgeShape::capillary;
   static constexpr std::string_view word = "capillary";
@@ -177,7 +177,7 @@ struct CapillaryAttraction : AcrossGap {
   static void make(ContactModel& contact, double radius, const Value& value) {
     const auto [c, gap] = begin(contact, choice, radius, value);
     contact.bridge.surface_tension_n_m = c / (2 * std::numbers::pi * radius);
-    const double root = 2 * gap / (1 + std::sqrt(1 + 0.4 * gap / radius));  // of gap = root + 0.1 root^2/R
+    const double root = 2 * gap / (1 + std::sqrt(1 + 0.4 * gap / radius));  // solves gap = root + 0.1 root^2/R
     contact.bridge.liquid_volume_m3 = root * root * root;
   }
   static double at_touch(const Bridge& bridge, double radius) {
@@ -198,8 +198,8 @@ struct CapillaryAttraction : AcrossGap {
     const Real force = k.bridge_c * s * s * share;
     return {force, force * share * (k.bridge_b + Real(2.0) * k.bridge_a * gap) / s};
   }
-  /// The integral of 1/(1 + p x + q x^2) has an arc tangent, which packs do not offer; eight-point Gauss-Legendre is
-  /// exact to 1e-9 over the length of a bridge.
+  /// The integral of 1/(1 + p x + q x^2) needs an arc tangent, which packs do not have; eight-point Gauss-Legendre is
+  /// accurate to 1e-9 over the length of a bridge.
   template <class Real>
   PASTEFIT_INLINE static Real work(const ConstantsOf<Real>& k, Real d, Real s) {
     constexpr double nodes[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
@@ -213,9 +213,9 @@ struct CapillaryAttraction : AcrossGap {
   }
 };
 
-/// Attraction of a pair at overlap d, none while it touches; forms and ruptures its bridge (`alive` 0 or 1).
-/// A bridge that forms will take work to be pulled apart: the energy balance counts that work as spent when it forms
-/// (`spent`). Few form in a step, so that the work is computed only where one does.
+/// Attraction of a pair at overlap d, zero in contact; forms and ruptures its bridge (`alive` 0 or 1). The energy
+/// balance counts the work of separating a bridge as dissipated when it forms (`spent`). Few form in a step, so it is
+/// computed only where one does.
 template <class Attraction, class Real>
 PASTEFIT_INLINE Pull<Real> bridge_pull(const ConstantsOf<Real>& k, Real overlap, Real scale, Real& alive, Real& spent) {
   const Real zero(0.0), one(1.0);

@@ -10,7 +10,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a force: what two ways to the same number may differ by
+constexpr double kRounding = 1e-9;  // of a force: tolerance for rounding
 
 double shear_modulus(double youngs_modulus, double poissons_ratio) {
   return youngs_modulus / (2 * (1 + poissons_ratio));
@@ -33,13 +33,13 @@ void set_friction(PairConstants& pair, double friction, FrictionBasis basis) {
   pair.friction = friction;
   pair.friction_of_total = basis != FrictionBasis::elastic;
   pair.friction_reserve = basis == FrictionBasis::net ? 0 : 1;
-  // Of a force T the spring's own normal force is T^2/(4 S_t d): share x of the repulsion where T is mu times the
-  // repulsion. T/repulsion = mu (1 + x (T/(mu repulsion))^2) in two rounds, as in `act`.
+  // Of a tangential force T the spring's own normal force is T^2/(4 S_t d): a share x of the repulsion where T is mu
+  // times the repulsion. T/repulsion = mu (1 + x (T/(mu repulsion))^2) in two iterations, as in `act`.
   const double x = std::min(friction * friction / (6 * pair.tangential_ratio), 0.25);
   pair.slip_limit = friction * (1 + x * (1 + x) * (1 + x));
 }
 
-/// `levers`: (r/R*)^2, 4 of equal grains and 1 of a grain on a wall.
+/// `levers`: (r/R*)^2, 4 for equal grains and 1 for a grain on a wall.
 void set_rolling(PairConstants& pair, double rolling_friction, double levers) {
   pair.rolling_friction = rolling_friction;
   pair.roll_stiffness_share = 2.25 * rolling_friction * rolling_friction / 0.4;

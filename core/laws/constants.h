@@ -5,52 +5,52 @@
 
 namespace pastefit {
 
-/// A solid sphere's surface is 3.5 times as light as its mass: 1/m + r^2/I with I = 2/5 m r^2.
+/// Lightness of a solid sphere's surface over that of its mass: 1/m + r^2/I = 3.5/m with I = 2/5 m r^2.
 inline constexpr double kSurfaceLightness = 3.5;
 
-/// What a contact law needs to know of a pair of surfaces, computed once per pair before a run.
-/// Lengths and forces of the attraction are those of a pair of reference grains; see `Bridge` for other sizes.
-/// In kernels they are packs, the same number in all lanes.
+/// Constants of a pair of surfaces for all laws, computed once before a run. Lengths and forces of attraction refer to
+/// reference grains; see `Bridge` for other sizes. In kernels they are packs with equal lanes.
 template <class Real>
 struct ConstantsOf {
   Real hertz{0};                   ///< 4/3 E* [Pa]
   Real normal_stiffness{0};        ///< 2 E*: S_n = 2 E* sqrt(R* d) [Pa]
   Real sqrt_normal_stiffness{0};   ///< sqrt(2 E*)
   Real tangential_ratio{0};        ///< S_t / S_n = 4 G*/E*
-  Real damping{0};                 ///< 2 sqrt(5/6) beta(e); e exact when the damped contact may pull at its end
+  Real damping{0};                 ///< 2 sqrt(5/6) beta(e); e is exact if the damped contact may pull at its end
   Real tangential_damping{0};      ///< the same times sqrt(S_t / S_n)
-  Real spin_damping_share{0};      ///< fastest damping of spins over that along the normals: 2.5 sqrt(S_t / S_n)
-  Real lost_share{0};              ///< 1 - e^2: of its energy, in a head-on collision
+  Real spin_damping_share{0};      ///< largest damping of spins over that along the normals: 2.5 sqrt(S_t / S_n)
+  Real lost_share{0};              ///< 1 - e^2: share of the energy lost in a head-on collision
   Real friction{0};                ///< Coulomb coefficient
   Real slip_limit{0};              ///< force of a sliding tangential spring over the repulsion
   bool friction_of_total = false;  ///< limit mu N with N the total normal force instead of the elastic repulsion
-  Real friction_reserve{1};  ///< share of the law's reserve (`NormalForce::reserve`) that counts as normal force then
-  Real rolling_friction{0};  ///< mu_r
-  Real roll_stiffness_share{0};  ///< k_r/(I of a grain) over S_n/m: 2.25 mu_r^2/0.4
-  Real roll_damping{0};          ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
-  Real spin_damping{0};          ///< `damping` of a contact whose damping of spins would be that of the rolling dashpot
-  Real size_per_radius{0};       ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
-  Real adhesion{0};          ///< JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]; of a law that `yields` k_c/k_1
-  Real stiffening{1};        ///< of a law that `yields`, k_2/k_1
-  Real least_plastic{0};     ///< of the same, plastic overlap over the overlap while loading
-  Real most_plastic{1};      ///< and on the adhesion branch
-  Real pull_off_patch{0};    ///< JKR: contact radius of reference grains at which they are torn apart [m]
-  Real pull_off_gap{0};      ///< gap at which a law that `reaches` lets go of reference grains at the latest [m]
-  Real cohesion{0};          ///< constant attraction in overlap [N]
-  bool passes_over = false;  ///< attraction at touch differs from that: `passage` overlap leads from one to the other
-  Real touch_excess{0};      ///< attraction at touch less the cohesion [N]
-  Real passage{0};           ///< overlap of reference grains beyond which the cohesion alone is left [m]
-  Real bridge_a{0};          ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
-  Real bridge_b{0};          ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
-  Real bridge_c{0};          ///< attraction at touch [N]
-  Real rupture_gap{0};       ///< -d_c [m]
-  Real formation_gap{0};     ///< gap at which a bridge forms [m]
-  Real viscosity{0};         ///< 6 pi times that of the liquid of a bridge [Pa s]
-  Real roughness{0};         ///< least gap of reference grains that it reckons with [m]
+  Real friction_reserve{1};        ///< share of `NormalForce::reserve` added to that normal force
+  Real rolling_friction{0};        ///< mu_r
+  Real roll_stiffness_share{0};    ///< k_r/(I of a grain) over S_n/m: 2.25 mu_r^2/0.4
+  Real roll_damping{0};            ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
+  Real spin_damping{0};            ///< normal damping at which the damping of spins equals that of the rolling dashpot
+  Real size_per_radius{0};         ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
+  Real adhesion{0};        ///< JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]; laws that `yield` k_c/k_1
+  Real stiffening{1};      ///< laws that `yield`: k_2/k_1
+  Real least_plastic{0};   ///< the same: plastic overlap over overlap while loading
+  Real most_plastic{1};    ///< the same on the adhesion branch
+  Real pull_off_patch{0};  ///< JKR: contact radius of reference grains at pull-off [m]
+  Real pull_off_gap{0};    ///< largest gap of reference grains in contact, for a law that `reaches` [m]
+  Real cohesion{0};        ///< constant attraction in overlap [N]
+  bool passes_over =
+      false;              ///< attraction at touch differs from `cohesion`: linear transition over the overlap `passage`
+  Real touch_excess{0};   ///< attraction at touch minus the cohesion [N]
+  Real passage{0};        ///< overlap of reference grains at which the transition ends [m]
+  Real bridge_a{0};       ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
+  Real bridge_b{0};       ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
+  Real bridge_c{0};       ///< attraction at touch [N]
+  Real rupture_gap{0};    ///< -d_c [m]
+  Real formation_gap{0};  ///< gap at which a bridge forms [m]
+  Real viscosity{0};      ///< 6 pi times the viscosity of the liquid [Pa s]
+  Real roughness{0};      ///< smallest gap in lubrication, for reference grains [m]
 };
 using PairConstants = ConstantsOf<double>;
 
-/// The same in all lanes.
+/// The same numbers in all lanes.
 template <class Real>
 PASTEFIT_INLINE ConstantsOf<Real> in_lanes(const PairConstants& k) {
   return {Real(k.hertz),
@@ -89,23 +89,21 @@ PASTEFIT_INLINE ConstantsOf<Real> in_lanes(const PairConstants& k) {
           Real(k.roughness)};
 }
 
-/// Overlap in mean radii over which the attraction of a bridge at touch passes over into the cohesion, where they
-/// differ. A force that jumps makes energy at any time step: a pair that the bridge pulls shut and nothing holds shut
-/// crosses touch for ever. The narrower the passage, the stiffer it is.
+/// Overlap over mean radius in which the attraction at touch changes to the cohesion, where they differ. A jump of the
+/// force creates energy at any time step: a pair that is pulled together by the bridge and not held by the cohesion
+/// oscillates across touch for ever. A narrower transition is stiffer.
 inline constexpr double kPassage = 0.01;
 
-/// Least gap that lubrication reckons with, over the mean radius: LIGGGHTS's recommended minSeparationDistanceRatio of
-/// 1.01 (cohesion washino/capillary/viscous), by which the surface of either grain is rough by a hundredth of its
-/// radius.
+/// Smallest gap of lubrication over the mean radius: LIGGGHTS's recommended minSeparationDistanceRatio of 1.01
+/// (cohesion washino/capillary/viscous), i.e. a roughness of each grain of 1 % of its radius.
 inline constexpr double kRoughness = 0.02;
 
-/// Grain against grain. `reference_radius_m` is the radius the bridge's numbers belong to.
-/// Source of the elastic constants: Hertz; Mindlin; damping Tsuji et al. in the form of physics conventions
-/// beta = -ln e / sqrt(ln^2 e + pi^2).
+/// Grain against grain. `reference_radius_m`: grain size that the bridge constants refer to. Sources: Hertz, Mindlin;
+/// damping of Tsuji et al. in the form beta = -ln e / sqrt(ln^2 e + pi^2).
 PairConstants grain_pair(const ContactModel& grains, double reference_radius_m);
 
-/// Grain against wall: the wall's own friction, restitution and rolling, and its share of the grains' attraction.
-/// A wall carries no liquid shell: a bridge to it forms at the offset of one grain.
+/// Grain against wall: friction, restitution and rolling of the wall, and its share of the grains' attraction. A wall
+/// has no liquid shell: a bridge to it forms at the offset of one grain.
 PairConstants wall_pair(const ContactModel& grains, const WallContact& wall, double reference_radius_m);
 
 /// Damping factor beta of a restitution 0 < e <= 1.
@@ -118,9 +116,9 @@ double rupture_gap(const Bridge& bridge, double reference_radius_m);
 /// Attraction of two reference grains at an overlap d, -rupture gap <= d <= 0 [N], as the engine computes it.
 double bridge_force(const Bridge& bridge, double reference_radius_m, double overlap);
 
-/// Overlap over diameter at which the repulsion of two touching reference grains balances their attraction:
-/// d/(2R); for Hertz with 4/3 E* sqrt(R/2) d^(3/2) = cohesion. In a column it is within a third of that: 30 % more at
-/// 40,000 Pa, where grains are pulled across gaps as well.
+/// Overlap over diameter, d/(2R), at which repulsion balances attraction of two touching reference grains; for Hertz
+/// 4/3 E* sqrt(R/2) d^(3/2) = cohesion. Columns are within a third of it: 30 % more at 40,000 Pa, where grains are also
+/// pulled across gaps.
 double resting_overlap(const ContactModel& grains, double reference_radius_m);
 
 }  // namespace pastefit

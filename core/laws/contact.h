@@ -12,9 +12,9 @@
 
 namespace pastefit {
 
-/// The attraction at touch passes over into the cohesion along a straight line, from touch to the overlap `passage`. A
-/// force that jumps there would make energy at any step: a pair that the bridge pulls shut and nothing holds shut
-/// crosses touch for ever.
+/// Linear transition from the attraction at touch to the cohesion, over the overlap `passage`. A jump of the force
+/// would create energy at any step: a pair that is pulled together by the bridge and not held by the cohesion would
+/// oscillate across touch for ever.
 template <class Real>
 PASTEFIT_INLINE void pass_over(const ConstantsOf<Real>& k, Real overlap, Real size_scale, bool counted,
                                ContactForce<Real>& contact_force) {
@@ -33,8 +33,8 @@ PASTEFIT_INLINE void pass_over(const ConstantsOf<Real>& k, Real overlap, Real si
   }
 }
 
-/// Repulsion, damping and cohesion along the normal. The damper of a step works along the mean of the velocities before
-/// and after it: half of its work is known now, the other half one step later.
+/// Repulsion, damping and cohesion along the normal. The work of a damper uses the mean of the velocities before and
+/// after the step: half of it is known now, the other half one step later.
 template <class Normal, class Real>
 PASTEFIT_INLINE ContactForce<Real> press(const ConstantsOf<Real>& k, const ContactKinematics<Real>& m, Real approach,
                                          const NormalForce<Real>& normal, const Dashpots<Real>& d, Real size_scale,
@@ -42,7 +42,8 @@ PASTEFIT_INLINE ContactForce<Real> press(const ConstantsOf<Real>& k, const Conta
   const Real zero(0.0), half(0.5);
   const Real damper = d.damper_n * approach;
   Real cohesion = k.cohesion * size_scale * size_scale;
-  if constexpr (Normal::reaches) cohesion = select(m.overlap > zero, cohesion, zero);  // beyond touch the bridge pulls
+  if constexpr (Normal::reaches)
+    cohesion = select(m.overlap > zero, cohesion, zero);  // across a gap the bridge attracts
 
   ContactForce<Real> contact_force;
   contact_force.normal_force = select(normal.touching, normal.force + damper - cohesion, zero);
@@ -61,7 +62,7 @@ PASTEFIT_INLINE ContactForce<Real> press(const ConstantsOf<Real>& k, const Conta
   return contact_force;
 }
 
-/// Adds the attraction across a gap, and where bodies overlap the passage to the cohesion.
+/// Adds the attraction across a gap and, in overlap, the transition to the cohesion.
 template <class Attraction, class Real>
 PASTEFIT_INLINE void attract(const ConstantsOf<Real>& k, Real overlap, Real size_scale, Energies energies, Real& bridge,
                              ContactForce<Real>& contact_force) {
@@ -74,7 +75,7 @@ PASTEFIT_INLINE void attract(const ConstantsOf<Real>& k, Real overlap, Real size
   if (k.passes_over) pass_over(k, overlap, size_scale, energies != Energies::none, contact_force);
 }
 
-/// The contact for the law of rolling. The spring's moment is shortened when the contact stiffens, by a_old/a.
+/// The contact as the rolling law sees it. The spring's moment is reduced when the contact stiffens, by a_old/a.
 template <class Rolling, class Real>
 PASTEFIT_INLINE RollingContact<Real> rolling_contact(const ConstantsOf<Real>& k, const ContactKinematics<Real>& m,
                                                      const NormalForce<Real>& normal, const Dashpots<Real>& d, Real dt,
@@ -101,17 +102,17 @@ PASTEFIT_INLINE RollingContact<Real> rolling_contact(const ConstantsOf<Real>& k,
   return rolling;
 }
 
-/// Force of one contact or bridge for one time step `dt`; updates its history. Energies that are not asked for are
-/// zero; the force does not depend on what is.
+/// Force of one contact or bridge for one time step `dt`; updates its history. Energies are zero unless requested; the
+/// force does not depend on them.
 ///
-/// in contact: the force of the overlap (laws/normal.h), dashpots (laws/dashpots.h), Mindlin spring and Coulomb limit
-///   (laws/tangential.h), rolling resistance (laws/rolling.h).
-/// overlap d > 0: cohesion besides, constant but for the passage to it (`pass_over`).
-/// gap, bridge alive: attraction F(d). A bridge forms at the formation gap and lives until the rupture gap.
-/// bridge alive, with `viscous`: lubrication besides (laws/lubrication.h).
+/// in contact                force of the overlap (laws/normal.h), dashpots (laws/dashpots.h), Mindlin spring and
+///                           Coulomb limit (laws/tangential.h), rolling resistance (laws/rolling.h)
+/// overlap d > 0             also cohesion, constant except for the transition to it (`pass_over`)
+/// gap, bridge alive         attraction F(d); a bridge forms at the formation gap and lives until the rupture gap
+/// bridge alive, `viscous`   also lubrication (laws/lubrication.h)
 ///
-/// Square roots and divisions are what this function costs most: two roots and one division, and a root and a division
-/// more for each of sliding and rolling where a contact of the batch yields; what can be divided together is.
+/// Cost is dominated by square roots and divisions: two roots and one division, plus one of each for sliding and for
+/// rolling if a contact of the batch yields. Divisions are combined where possible.
 template <class Normal, class Attraction, class Rolling, bool viscous, class Real>
 PASTEFIT_INLINE ContactForce<Real> act(const ConstantsOf<Real>& k, const ContactKinematics<Real>& m,
                                        ContactHistory<Real>& history, Real dt, Energies energies) {
@@ -121,7 +122,7 @@ PASTEFIT_INLINE ContactForce<Real> act(const ConstantsOf<Real>& k, const Contact
   const Real radius = m.sqrt_radius * m.sqrt_radius, size_scale = k.size_per_radius * radius;
   const NormalForce<Real> normal =
       Normal::at(k, m.sqrt_radius, m.overlap, Normal::yields ? history.bond : history.sqrt_contact_radius);
-  // Before the division, which takes long: 1 to 2 % of a slump.
+  // Before the slow division, which overlaps with it: 1 to 2 % of a slump.
   const detail::Turned<Real> slip = detail::turned(history.slip, m.normal, m.twist * dt);
   const Dashpots<Real> d = dashpots(k, m, normal.contact_radius, dt);
 

@@ -3,22 +3,22 @@
 #include "core/laws/pack.h"
 #include "core/vec3.h"
 
-// What laws with history in the plane of a contact share: how the history turns with the plane, and how it yields.
+// Shared by laws with a history in the contact plane: rotation of the history with the plane, and its yield.
 
 namespace pastefit::detail {
 
-/// Squared lengths and denominators are kept above the first before they are divided by, contact radii, whose inverse
-/// is squared, above the second: far below anything in a scene, and what they divide is still a float.
+/// Lower bounds of divisors: of squared lengths and denominators, and of contact radii, whose inverse is squared. Far
+/// below any value in a scene, and quotients stay within the range of floats.
 inline constexpr double kFloor = 1e-30;
 inline constexpr double kNoWidth = 1e-15;  // [m]
 
-/// A vector of the contact plane on its way to the plane as it is now: projected, turned with the twist; the length it
-/// lost by the projection is given back by `restored`.
+/// A vector projected on the present contact plane and rotated by the twist; `restored` corrects the length that the
+/// projection took.
 template <class Real>
 struct Turned {
   BasicVec3<Real> vector;
-  Real lost;    ///< squared length lost
-  Real square;  ///< squared length left
+  Real lost;    ///< squared length removed by the projection
+  Real square;  ///< squared length after it
 };
 
 template <class Real>
@@ -28,16 +28,16 @@ PASTEFIT_INLINE Turned<Real> turned(const BasicVec3<Real>& a, const BasicVec3<Re
   return {fused(twist_angle, cross(n, b), b), along * along, larger(dot(b, b), Real(kFloor))};
 }
 
-/// sqrt(1 + x) to second order: enough for the few hundredths of a degree a contact turns in a step. Bounded, because
-/// the slip of a head-on collision is rounding only, which may lie along the normal as a whole: what is left of it is
-/// nothing to be given a length back.
+/// sqrt(1 + x) to second order, sufficient for the few hundredths of a degree that a contact rotates in a step.
+/// Bounded, because the slip of a head-on collision is pure rounding and may lie entirely along the normal; there is no
+/// length to restore.
 template <class Real>
 PASTEFIT_INLINE Real restored(const Turned<Real>& t) {
   return Real(1.0) + Real(0.5) * smaller(t.lost / t.square, Real(1.0));
 }
 
-/// The factor that brings a vector down to `limit`; 1 if it is not longer. Where all contacts of a batch hold, as in a
-/// heap at rest, there is nothing to divide.
+/// Factor that reduces a vector to `limit`; 1 if it is not longer. If all contacts of a batch stick, as in a heap at
+/// rest, there is no division.
 template <class Real>
 PASTEFIT_INLINE Real cap(Real square, Real limit) {
   const auto yields = square > limit * limit;
@@ -45,9 +45,9 @@ PASTEFIT_INLINE Real cap(Real square, Real limit) {
   return select(yields, limit / square_root(square), Real(1.0));
 }
 
-/// The factor that brings a tangential force down to what friction allows, mu (load + normal_force factor^2): the
-/// spring's own normal force belongs to the load. Two rounds from below: right to 0.1 % up to mu = 0.5, 4 % low at 1.
-/// (From above there is another solution, at which a spring would hold on to a grain that leaves.)
+/// Factor that reduces a tangential force to the friction limit mu (load + normal_force factor^2), which includes the
+/// spring's own normal force. Two iterations from below: accurate to 0.1 % up to mu = 0.5, 4 % low at 1. (From above
+/// there is another solution, at which a spring would hold a separating grain.)
 template <class Real>
 PASTEFIT_INLINE Real cap(Real square, Real friction, Real load, Real normal_force) {
   const Real one(1.0), least = friction * load;

@@ -13,27 +13,26 @@ struct Dashpots {
   Real inverse_contact_radius;    ///< 1/a, bounded out of contact
   Real stiffness_n, stiffness_t;  ///< S_n = 2 E* a, S_t = 8 G* a [N/m]
   Real sqrt_impedance;            ///< sqrt(S_n m*)
-  Real damping_n;                 ///< of the dashpot along the normal at its full strength [N s/m]
-  Real damper_n, damper_t;        ///< of both dashpots, as far as they are stable [N s/m]
-  Real brake_t, inverse_brakes;   ///< a dashpot is weakened by both, as the damper along the normal
+  Real damping_n;                 ///< of the normal dashpot at full strength [N s/m]
+  Real damper_n, damper_t;        ///< of both dashpots, as far as stable [N s/m]
+  Real brake_t, inverse_brakes;   ///< factors that reduce a dashpot like the normal damper
 };
 
-/// Dashpots of a contact for a time step `dt`: 2 sqrt(5/6) beta sqrt(S m*) along and across the normal, weakened as far
-/// as the step asks for.
+/// Dashpots of a contact for a time step `dt`: 2 sqrt(5/6) beta sqrt(S m*) along and across the normal, reduced as far
+/// as the step requires.
 ///
-/// Velocities are those of the half step before (leapfrog): a damper acts on the velocity of dt/2 ago. With
-/// c/(1 + c dt/(4 m*)) a pair has its nominal restitution to second order in dt. Among many contacts a mode that loses
-/// the share x of its velocity in a step decays too fast, by x/2: a grain among 12 held neighbours by 15 % at the
-/// default step (tests/cases/caged-grain.json). A denominator that knows the neighbours can mend that, but then damps
-/// what moves alike too little: with X/12 in it (X as below) pastes spread 0.8 % wider at the default step, without
-/// it 0.4 %.
+/// Velocities are those of the previous half step (leapfrog): a damper acts on the velocity dt/2 ago. With c/(1 + c
+/// dt/(4 m*)) a pair has its nominal restitution to second order in dt. With many contacts, a mode that loses the share
+/// x of its velocity in a step decays too fast, by x/2: a grain among 12 held neighbours by 15 % at the default step
+/// (tests/cases/caged-grain.json). A denominator that includes the neighbours would correct this but damp uniform
+/// motion too little: with X/12 in it (X as below) pastes spread 0.8 % wider at the default step, without it 0.4 %.
 ///
-/// Explicit damping is stable while no mode loses more than twice its velocity in a step, of which its springs take
-/// (w dt)^2/2. X = dt (sum of c_n/m over body i + over body j) bounds the modes along the normals, 2.5 sqrt(S_t/S_n) X
-/// those of spins (2.5 = m r^2/I; 3.5 for a pair of its own). Only where that is more than the springs leave
-/// (`Motion::damping_rate`) a damper is weakened to it.
+/// Explicit damping is stable while no mode loses more than twice its velocity in a step; the springs take (w dt)^2/2
+/// of this. X = dt (sum of c_n/m over body i + over body j) bounds the modes along the normals, 2.5 sqrt(S_t/S_n) X
+/// those of spins (2.5 = m r^2/I; 3.5 for an isolated pair). A damper is reduced only where this exceeds what the
+/// springs leave (`Motion::damping_rate`).
 ///
-/// One division serves all: the brakes and the contact radius are divided by together.
+/// One division serves all: reductions and contact radius share it.
 template <class Real>
 PASTEFIT_INLINE Dashpots<Real> dashpots(const ConstantsOf<Real>& k, const ContactKinematics<Real>& m,
                                         Real contact_radius, Real dt) {

@@ -10,12 +10,12 @@
 
 namespace pastefit {
 
-/// Stiff spheres that stick while they touch (Derjaguin, Muller & Toporov 1975, with Hertz's patch and the force of
-/// the rigid spheres, as in LAMMPS and Yade), in the convention of `Jkr`, in which the work of adhesion is 2 gamma:
+/// Stiff adhesive spheres (Derjaguin, Muller & Toporov 1975, with the contact area of Hertz and the attraction of rigid
+/// spheres, as in LAMMPS and Yade). As in `Jkr` the work of adhesion is 2 gamma:
 ///     F = 4/3 E* sqrt(R*) d^(3/2) - 4 pi gamma R*,   d > 0.
-/// The largest attraction is 4 pi gamma R*, at touch; beyond it there is none, so that a cycle of approach and pull
-/// loses nothing. Friction feels the elastic part, or of the total force F + 8 pi gamma R*, as in LAMMPS. Scale-free:
-/// gamma over the mean radius, so that forces go with its square.
+/// The pull-off force is 4 pi gamma R*, at touch; there is no attraction across a gap, so that a cycle of approach and
+/// separation loses no energy. Friction uses the elastic part, or with `total` F + 8 pi gamma R*, as in LAMMPS.
+/// Scale-free: gamma over the mean radius, so that forces scale with R^2.
 struct Dmt {
   static constexpr NormalLaw choice = NormalLaw::dmt;
   static constexpr std::string_view word = "dmt";
@@ -45,7 +45,7 @@ struct Dmt {
     const Real pull = normal_force.load - normal_force.force;
     return (Real(0.4) * normal_force.load - pull) * larger(overlap, Real(0.0));
   }
-  /// 4 pi gamma a^2: of the patch and of what surrounds it alike.
+  /// 4 pi gamma a^2: of the contact area and its surroundings alike.
   static double surface(const PairConstants& k, double, double contact_radius) {
     return k.adhesion * contact_radius * contact_radius;
   }
@@ -57,7 +57,7 @@ struct Dmt {
   static double overlap_under(const PairConstants& k, double radius, double load) {
     return Hertz::overlap_under(k, radius, load + k.adhesion * radius);
   }
-  /// Slow bodies swing about where the force is zero.
+  /// Slow bodies oscillate about the equilibrium overlap.
   static double collision_time(const PairConstants& k, double radius, double mass, double speed) {
     const double stiffness = k.normal_stiffness * std::sqrt(radius * overlap_under(k, radius, 0));
     return std::min(Hertz::collision_time(k, radius, mass, speed), std::numbers::pi * std::sqrt(mass / stiffness));

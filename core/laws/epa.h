@@ -10,22 +10,33 @@
 
 namespace pastefit {
 
-/// Elasto-plastic spheres that adhere (Luding, Granular Matter 10 (2008) 235; Thakur et al., Granular Matter 16 (2014)
-/// 383, doi 10.1007/s10035-014-0506-4: the Edinburgh model, EEPA). Exponent m, 3/2 of `epa` and 1 of `luding`;
-/// plasticity ratio l, adhesion ratio x = k_c/k_1, constant pull-off f0:
+/// Elasto-plastic adhesion (Luding, Granular Matter 10 (2008) 235; Thakur et al., Granular Matter 16 (2014) 383, doi
+/// 10.1007/s10035-014-0506-4: the Edinburgh model, EEPA). Exponent m: 3/2 for `epa`, 1 for `luding`; plasticity ratio
+/// l, adhesion ratio x = k_c/k_1, constant pull-off f0:
 ///     k1 = 4/3 E* R*^(2-m),   k2 = k1/(1 - l);
-///     loading             F = k1 d^m - f0
-///     unloading, again    F = k2 (d^m - p^m) - f0,   p the plastic overlap, p^m = l d_max^m
-///     adhesion            F = -x k1 d^m - f0, never below it.
-/// All three are the second with a plastic overlap that yields: p is kept between l^(1/m) d, where loading begins, and
-/// (1 + x (1 - l))^(1/m) d, where the adhesion branch does. So the memory shrinks on that branch, reloading goes
-/// parallel to unloading, and it ends with the contact. A contact that a law takes over, as after the filling of a
-/// mould, is at its deepest so far.
+///     loading                F = k1 d^m - f0
+///     unloading, reloading   F = k2 (d^m - p^m) - f0,   p the plastic overlap, p^m = l d_max^m
+///     adhesion               F = -x k1 d^m - f0, the lower limit of F.
 ///
-/// f0 is `PairConstants::cohesion`. Friction feels F + f0 + x k1 d^m (Thakur et al. 2014). S_n = 2 E* a, with a =
-/// sqrt(R* d) of `epa` as of Hertz, and a = 2/3 R* of `luding`, whose stiffness k1 and dashpots are constant.
-/// Scale-free: l and x as they are, f0 over the squared mean radius.
-/// A wall yields as grains do; its share of the attraction is one of x and f0.
+///     F |           //       loading: k1 d^m
+///       |         / /
+///       |       /  /         unloading, reloading: k2 (d^m - p^m)
+///       |     /   /
+///       |   /    /
+///       | /     /
+///     --+------p------ d
+///       | \   /
+///       |   \/               adhesion: -x k1 d^m     (f0 = 0)
+///
+/// All three are the second line with a plastic overlap that yields: p is kept between l^(1/m) d, the loading line, and
+/// (1 + x (1 - l))^(1/m) d, the adhesion branch. So p shrinks on that branch, reloading is parallel to unloading, and p
+/// is forgotten when the contact opens. A contact that exists when the law takes over, as after the filling of a mould,
+/// is at its deepest overlap so far.
+///
+/// f0 is `PairConstants::cohesion`. Friction uses F + f0 + x k1 d^m (Thakur et al. 2014). S_n = 2 E* a, with a =
+/// sqrt(R* d) for `epa` as for Hertz, and a = 2/3 R* for `luding`, whose stiffness k1 and dashpots are constant.
+/// Scale-free: l and x unchanged, f0 over the squared mean radius. A wall yields as grains do; its share of the
+/// attraction applies to x and f0.
 template <NormalLaw law>
 struct ElastoPlasticAdhesion {
   static constexpr NormalLaw choice = law;
@@ -66,7 +77,7 @@ struct ElastoPlasticAdhesion {
     normal.plastic = yielded;
     return normal;
   }
-  /// Of the spring k2, stretched or compressed from p: m k2 ((d^(m+1)/m + p^(m+1))/(m + 1) - d p^m/m).
+  /// Energy of the spring k2, deformed from p: m k2 ((d^(m+1)/m + p^(m+1))/(m + 1) - d p^m/m).
   template <class Real>
   PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>& k, Real radius, const NormalForce<Real>& normal_force,
                                      Real overlap) {

@@ -10,19 +10,19 @@
 
 namespace pastefit {
 
-/// Elastic spheres that stick (Johnson, Kendall & Roberts 1971), in the convention of Karkala et al., Processes 7
-/// (2019) 278, and of EDEM, in which the work of adhesion is 2 gamma:
+/// Adhesive elastic spheres (Johnson, Kendall & Roberts 1971), in the convention of Karkala et al., Processes 7 (2019)
+/// 278, and of EDEM, in which the work of adhesion is 2 gamma:
 ///     F = 4 E* a^3/(3 R*) - 4 sqrt(pi gamma E*) a^(3/2),   d = a^2/R* - sqrt(4 pi gamma a/E*).
-/// The largest attraction is 3 pi gamma R*, the one at d = 0 is 8/3 pi gamma R*. Bodies attract each other once they
-/// have touched, until the contact is not stable any more: at a_t = (pi gamma R*^2/(4 E*))^(1/3), d = -3 a_t^2/R*,
-/// where F = -5/3 pi gamma R*. (EDEM lets go at 0.917 a_t, which is a third of a percent sooner in d.)
+/// The pull-off force is 3 pi gamma R*; the attraction at d = 0 is 8/3 pi gamma R*. Bodies that have touched attract
+/// each other until the contact becomes unstable: at a_t = (pi gamma R*^2/(4 E*))^(1/3), d = -3 a_t^2/R*, where F =
+/// -5/3 pi gamma R*. (EDEM ends the contact at 0.917 a_t, a third of a percent earlier in d.)
 ///
-/// With y = sqrt(a/a_t) and f = pi gamma R*: F = f (y^6/3 - 2 y^3), d = (a_t^2/R*) (y^4 - 4 y), y >= 1. To find y from
-/// d take (y - 1) sqrt(y^2 + 2 y + 3) = w, w^2 = 3 + d R*/a_t^2, which has no double root: three of Newton's steps from
-/// sqrt(1 + w), the root's upper bound, are right to 2e-14.
+/// With y = sqrt(a/a_t) and f = pi gamma R*: F = f (y^6/3 - 2 y^3), d = (a_t^2/R*) (y^4 - 4 y), y >= 1. To solve d for
+/// y take (y - 1) sqrt(y^2 + 2 y + 3) = w, w^2 = 3 + d R*/a_t^2, which has no double root: three Newton steps from the
+/// upper bound sqrt(1 + w) are accurate to 2e-14.
 ///
-/// Friction feels the elastic part f y^6/3, or of the total force F + 6 f, as in LAMMPS. Scale-free: gamma over the
-/// mean radius, so that forces go with its square.
+/// Friction uses the elastic part f y^6/3, or with `total` F + 6 f, as in LAMMPS. Scale-free: gamma over the mean
+/// radius, so that forces scale with R^2.
 struct Jkr {
   static constexpr NormalLaw choice = NormalLaw::jkr;
   static constexpr std::string_view word = "jkr";
@@ -44,7 +44,7 @@ struct Jkr {
   PASTEFIT_INLINE static NormalForce<Real> at(const ConstantsOf<Real>& k, Real sqrt_radius, Real overlap,
                                               Real touched) {
     const Real zero(0.0), one(1.0), radius = sqrt_radius * sqrt_radius, patch = pull_off_patch(k, radius);
-    const Real left = fused(overlap, radius / (patch * patch), Real(3.0));  // to the end of the contact
+    const Real left = fused(overlap, radius / (patch * patch), Real(3.0));  // distance to the end of the contact
     const auto touching = select(touched > zero, left, overlap) > zero;
     const Real w = square_root(larger(left, zero));
     Real y = square_root(one + w);
@@ -70,13 +70,13 @@ struct Jkr {
   static double surface(const PairConstants& k, double, double contact_radius) {
     return 2 * k.adhesion * contact_radius * contact_radius;
   }
-  /// `energy` at d = 0 but for its sign, where y^3 = 4.
+  /// Minus `energy` at d = 0, where y^3 = 4.
   template <class Real>
   PASTEFIT_INLINE static Real spent(const ConstantsOf<Real>& k, Real radius) {
     const Real patch = pull_off_patch(k, radius);
     return Real(8.4195250494473572) * k.adhesion * patch * patch;
   }
-  /// That of Hertz over 1 - y^-3; bounded, because a contact that is torn apart shrinks without bound at its end.
+  /// That of Hertz over 1 - y^-3; bounded, because the area of a separating contact shrinks without bound at its end.
   template <class Real>
   PASTEFIT_INLINE static Real widening(const ConstantsOf<Real>& k, Real radius, Real energy,
                                        Real inverse_contact_radius) {
@@ -89,7 +89,7 @@ struct Jkr {
     const double patch = pull_off_patch(k, radius);
     return patch * patch / radius * (y * y * y - 4) * y;
   }
-  /// Slow bodies swing once about where the force is zero, with dF/dd = 3/10 f y^2 R*/a_t^2, y^3 = 6.
+  /// Slow bodies oscillate about the equilibrium overlap, with dF/dd = 3/10 f y^2 R*/a_t^2, y^3 = 6.
   static double collision_time(const PairConstants& k, double radius, double mass, double speed) {
     const double patch = pull_off_patch(k, radius),
                  stiffness = 0.3 * std::cbrt(36.0) * k.adhesion * radius * radius / (patch * patch);
@@ -97,8 +97,8 @@ struct Jkr {
   }
 
  private:
-  /// a_t of a pair. The cube root: s^(5/16) is right to 10 % for sizes that differ by a hundred, and Halley's steps
-  /// treble the number of right digits.
+  /// a_t of a pair. Cube root: s^(5/16) is accurate to 10 % for size ratios up to a hundred, and each Halley step
+  /// trebles the number of correct digits.
   template <class Real>
   PASTEFIT_INLINE static Real pull_off_patch(const ConstantsOf<Real>& k, Real radius) {
     const Real s = k.size_per_radius * radius, fourth = square_root(square_root(s));

@@ -10,13 +10,13 @@ namespace pastefit {
 /// Viscous resistance of the liquid between two bodies [N s/m]: force = coefficient times relative velocity.
 template <class Real>
 struct Lubrication {
-  Real damper_n, damper_t;  ///< along and across the normal, as far as they are stable
-  Real damping;             ///< sum of both at their full strength, for the bound on the dampers of a grain
+  Real damper_n, damper_t;  ///< along and across the normal, as far as stable
+  Real damping;             ///< sum of both at full strength, for the bound on the dampers of a grain
 };
 
 namespace detail {
 
-/// ln x for 1/16 <= x <= 64, to 1e-6. The eighth root lies near 1, where ln y = 2 artanh((y - 1)/(y + 1)).
+/// ln x for 1/16 <= x <= 64, to 1e-6. The eighth root is near 1, where ln y = 2 artanh((y - 1)/(y + 1)).
 template <class Real>
 PASTEFIT_INLINE Real logarithm(Real x) {
   const Real one(1.0), root = square_root(square_root(square_root(x)));
@@ -28,20 +28,20 @@ PASTEFIT_INLINE Real logarithm(Real x) {
 
 }  // namespace detail
 
-/// Lubrication by the liquid of a bridge, as long as it lives (`alive` 0 or 1), of viscosity mu at a gap h:
+/// Lubrication by the liquid of a living bridge (`alive` 0 or 1), of viscosity mu at a gap h:
 ///     along the normal   6 pi mu R* (R*/h)                      (Adams & Perchard 1985)
 ///     across it          6 pi mu R* (8/15 ln(R*/h) + 0.9588)    (Goldman, Cox & Brenner 1967)
 /// with R* in both as in Nase, Vargas, Abatan & McCarthy, Powder Technol. 116 (2001) 214, and LIGGGHTS. h is the gap,
-/// but at least the roughness, 0.02 of the mean radius, also where bodies overlap. The force across the normal acts in
-/// the middle of the gap (at a wall's surface), so that a pair that turns as a whole feels nothing. Torques against
-/// rolling and twisting, which do not grow with 1/h, are left out. Friction does not limit it and does not feel it.
+/// but at least the roughness, 0.02 of the mean radius, also in overlap. The tangential force acts in the middle of the
+/// gap (at a wall's surface), so that rigid rotation of a pair is free. Torques against rolling and twisting, which do
+/// not grow with 1/h, are neglected. Friction and lubrication are independent.
 ///
-/// Scale-free: mu is a stress over a rate. Force over R^2 is mu times a function of (v/R)/(d/R), whatever the size.
+/// Scale-free: mu is a stress over a rate. Force over R^2 is mu times a function of (v/R)/(d/R) for any size.
 ///
-/// The coefficient is not reduced for the delay of half a step, so that steady flow has the viscosity it is given. Two
-/// bodies lose at most their whole relative velocity in a step; among many the bound of all dampers holds
-/// (laws/dashpots.h): where their sum X exceeds 2, each is weakened by X/2. In the first step of a run, whose length is
-/// not known when forces are computed, dt is 0 and the liquid does nothing yet.
+/// The coefficient is not reduced for the delay of half a step, so that steady flow has the given viscosity. Two bodies
+/// lose at most their relative velocity in a step; with many contacts the bound on the sum X of all dampers applies
+/// (laws/dashpots.h): where X exceeds 2, each is reduced by X/2. In the first step of a run dt is not known when forces
+/// are computed; it is 0 there and the liquid has no effect.
 template <class Real>
 PASTEFIT_INLINE Lubrication<Real> lubrication(const ConstantsOf<Real>& k, Real overlap, Real radius, Real size_scale,
                                               Real alive, Real inverse_mass, Real neighbour_damping, Real dt) {
@@ -57,12 +57,12 @@ PASTEFIT_INLINE Lubrication<Real> lubrication(const ConstantsOf<Real>& k, Real o
   return {select(begun, along / brake_n, Real(0.0)), select(begun, across / brake_t, Real(0.0)), along + across};
 }
 
-/// Adds lubrication to the force of a pair, and counts what it dissipates. `before` is the share of the tangential
-/// damper of the last step that was viscous [N s/m]; `damper_n` is what else damps along the normal.
+/// Adds lubrication to the force of a pair and its dissipation to the energy balance. `before`: the viscous part of the
+/// tangential damper of the last step [N s/m]; `damper_n`: the other damping along the normal.
 ///
-/// Work is along the mean of the velocities before and after each step, as that of the dashpots (laws/contact.h,
-/// laws/tangential.h): `ContactHistory::damper` and `drag` hold the sums of both kinds. What is dissipated along the
-/// normal is told apart by what damps now.
+/// Work uses the mean of the velocities before and after each step, like that of the dashpots (laws/contact.h,
+/// laws/tangential.h): `ContactHistory::damper` and `drag` are sums of both kinds. Dissipation along the normal is
+/// divided between them in proportion to the present dampers.
 template <class Real>
 PASTEFIT_INLINE void lubricate(const Lubrication<Real>& l, const ContactKinematics<Real>& m, Real approach,
                                Real damper_n, Real before, Real dt, bool counted, ContactHistory<Real>& history,
@@ -83,8 +83,8 @@ PASTEFIT_INLINE void lubricate(const Lubrication<Real>& l, const ContactKinemati
   history.drag = history.drag + l.damper_t;
 }
 
-/// Of the tangential damper of the last step, what was viscous: all of it across a gap; of bodies that touched the
-/// share that it has now, and no more than a steady damper can have lost.
+/// The viscous part of the tangential damper of the last step: all of it across a gap; in contact the present share,
+/// and no more than a steady damper can have dissipated.
 template <class Real>
 PASTEFIT_INLINE Real viscous_before(const Lubrication<Real>& l, Real drag, const ContactHistory<Real>& history) {
   const Real share = l.damper_t / larger(drag + l.damper_t, Real(detail::kFloor));

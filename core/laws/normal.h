@@ -9,42 +9,41 @@
 
 namespace pastefit {
 
-/// What a law of the overlap makes of a pair.
+/// Result of a normal law for a pair.
 template <class Real>
 struct NormalForce {
-  decltype(Real() > Real()) touching;  ///< whether the bodies are in contact
-  Real contact_radius;  ///< a [m]; stiffnesses follow from it: S_n = 2 E* a, S_t = 8 G* a. 0 out of contact
-  Real force;           ///< repulsion less what the law itself attracts by [N]; 0 out of contact
-  Real load;            ///< elastic part of it, never negative, that friction feels [N]
-  Real reserve;         ///< what friction feels besides where it feels the total force [N]
-  Real plastic{0};      ///< of a law that `yields`: overlap at which the force of its spring is zero now [m]
+  decltype(Real() > Real()) touching;  ///< true if in contact
+  Real contact_radius;                 ///< a [m]; gives the stiffnesses S_n = 2 E* a, S_t = 8 G* a. 0 out of contact
+  Real force;                          ///< repulsion minus the law's own attraction [N]; 0 out of contact
+  Real load;                           ///< its elastic part, never negative, for the friction limit [N]
+  Real reserve;                        ///< added in the friction limit if that uses the total force [N]
+  Real plastic{0};                     ///< laws that `yield`: overlap at which the spring is force-free now [m]
 };
 
-/// Laws of the overlap d: how hard two bodies press on each other, and what that holds. Each is a type with
+/// Normal laws: force and energy of two bodies as functions of the overlap d. Each is a type with
 ///     choice, word     its name in the program and in files;
-///     parameters, make(contact, radius, value)   scale-free numbers that it is made of besides those of elasticity,
-///                      and how: as those of an attraction (laws/attraction.h);
-///     adheres          whether it attracts, and is Hertz where PairConstants::adhesion is 0;
-///     beside_bridges   whether it may be chosen beside an attraction across a gap: kernels of both are compiled;
-///     reaches          whether it holds bodies that have touched beyond d = 0, down to -PairConstants::pull_off_gap or
-///                      less. It then knows them by `touched` > 0, the root of their last contact radius;
-///     yields           whether it deforms for good. It then knows `touched` as the plastic overlap of the last step
-///     [m],
-///                      and gives that of this step in `NormalForce::plastic`;
-///     set(pair, grains, share)   its own constants, with `share` of its attraction (1 between grains); those of
-///                      elasticity and size are there;
+///     parameters, make(contact, radius, value)   its scale-free parameters besides the elastic ones, and how they set
+///                      its constants, as for an attraction (laws/attraction.h);
+///     adheres          true if it attracts, and reduces to Hertz if PairConstants::adhesion is 0;
+///     beside_bridges   true if an attraction across a gap is allowed besides: kernels of both are compiled;
+///     reaches          true if bodies that have touched stay in contact beyond d = 0, at most to
+///                      -PairConstants::pull_off_gap. `touched` > 0, the root of the last contact radius, marks them;
+///     yields           true if it deforms plastically. `touched` is then the plastic overlap of the last step [m], and
+///                      `NormalForce::plastic` that of this step;
+///     set(pair, grains, share)   its constants of a pair, with `share` of its attraction (1 between grains); those of
+///                      elasticity and size are set;
 ///     at(k, sqrt_radius, overlap, touched)   the `NormalForce` of a pair; sqrt_radius is sqrt(R*), radius R*;
-///     energy(k, radius, force, overlap)   what it holds [J], 0 out of contact; its derivative by d is the force;
-///     surface(k, radius, contact_radius)   if it `adheres`: what attracts has given for the patch [J]; with it,
-///                      `energy` is that of the strain;
-///     yielded(k, radius, before, after, middle)   if it `yields`: work [J] that a change of the plastic overlap takes
-///                      at the overlap `middle`;
-///     spent(k, radius)   if it `reaches`: energy it is short of as contact begins, the work to part it [J];
+///     energy(k, radius, force, overlap)   stored energy [J], 0 out of contact; its derivative by d is the force;
+///     surface(k, radius, contact_radius)   if it `adheres`: work of adhesion of the contact patch [J]; `energy` plus
+///                      this is the strain energy;
+///     yielded(k, radius, before, after, middle)   if it `yields`: work [J] of a change of the plastic overlap at the
+///                      overlap `middle`;
+///     spent(k, radius)   if it `reaches`: minus its energy at first touch, the work of separation [J];
 ///     widening(k, radius, energy, inverse_contact_radius)   energy (da/dd)/a: force of a spring that grows with a [N];
 ///     overlap_under(k, radius, load)   d > 0 at which the force is `load` >= 0 [m];
-///     collision_time(k, radius, mass, speed)   of a collision at that speed, for the choice of the step [s].
-/// The last two, and `set`, are computed once and in plain numbers; the others in packs too (laws/pack.h).
-/// To add one: core/README.md.
+///     collision_time(k, radius, mass, speed)   duration of a collision at this speed, for the time step [s].
+/// The last two, and `set`, use plain numbers and run once; the others are computed in packs too (laws/pack.h). To add
+/// one: core/README.md.
 
 /// Elastic spheres: F = 4/3 E* sqrt(R*) d^(3/2), a = sqrt(R* d).
 struct Hertz {

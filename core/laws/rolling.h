@@ -9,34 +9,34 @@
 
 namespace pastefit {
 
-/// A contact as its resistance to rolling sees it.
+/// A contact as a rolling law sees it.
 template <class Real>
 struct RollingContact {
   decltype(Real() > Real()) touching;
   BasicVec3<Real> spin;         ///< relative spin across the normal [rad/s]
-  detail::Turned<Real> turned;  ///< what `ContactHistory::roll` holds, turned with the contact, if the law says `turns`
-  Real restored;                ///< factor that gives it its length back
-  Real radius, smaller_radius;  ///< R*, of the two radii [m]
+  detail::Turned<Real> turned;  ///< `ContactHistory::roll`, rotated with the contact if the law `turns`
+  Real restored;                ///< factor that restores its length
+  Real radius, smaller_radius;  ///< R*, smaller of the two radii [m]
   Real sqrt_mass;               ///< sqrt(m*)
   Real stiffness_n, stiffness_t;
   Real old_stiffness_n;        ///< S_n of the step before [N/m]
   Real softened;               ///< min(1, a_old/a) of the contact radius a
   Real sqrt_impedance;         ///< sqrt(S_n m*)
-  Real brake, inverse_brakes;  ///< a dashpot is weakened by both, as the damper along the normal
+  Real brake, inverse_brakes;  ///< factors that reduce a dashpot like the normal damper
   Real limit;                  ///< largest moment mu_r N R* [N m]
 };
 
 /// Laws of rolling resistance. Each is a type with
 ///     choice, word   its name in the program and in files;
-///     parameters, make(contact, radius, value)   scale-free numbers that it is made of, and how: as those of an
-///                    attraction (laws/attraction.h);
-///     remembers      whether it uses `ContactHistory::roll`;
-///     turns          whether that is a vector of the contact plane, which turns with the contact;
-///     act(k, contact, dt, counted, roll, contact_force)   its moment on body i; what it dissipates and stores, if
-///                    energies are `counted`; its part in damping and stiffness; and what it will remember.
+///     parameters, make(contact, radius, value)   its scale-free parameters and their conversion, as for an attraction
+///                    (laws/attraction.h);
+///     remembers      true if it uses `ContactHistory::roll`;
+///     turns          true if that is a vector of the contact plane, which rotates with the contact;
+///     act(k, contact, dt, counted, roll, contact_force)   its moment on body i; its dissipated and stored energy if
+///                    energies are `counted`; its part in damping and stiffness; and its new history.
 /// To add one: core/README.md.
 
-/// What both that resist have in common: the coefficient mu_r.
+/// Common to both rolling laws: the coefficient mu_r.
 struct RollingFriction {
   static constexpr std::array<std::string_view, 1> parameters{"rolling_friction"};
 
@@ -60,12 +60,12 @@ struct NoRolling {
 };
 
 /// Elastic-plastic spring and dashpot (EPSD) of Ai et al. 2011: k_r = 2.25 S_n (mu_r R*)^2, moment at most mu_r N R*,
-/// dashpot 2 eta sqrt(I_r k_r) with eta = 0.3 while the spring has not yielded; I_r is the inertia of relative rolling
-/// about the contact, (1/(I_i + m_i r_i^2) + ...)^-1: 7/5 m* R*^2 for equal grains; the same expression serves all
+/// dashpot 2 eta sqrt(I_r k_r) with eta = 0.3 while the spring has not yielded. I_r is the inertia of relative rolling
+/// about the contact, (1/(I_i + m_i r_i^2) + ...)^-1: 7/5 m* R*^2 for equal grains; this expression is used for all
 /// sizes.
 ///
-/// The spring, whose moment has no potential of its own, is shortened when the contact stiffens (`softened`):
-/// stiffening adds no energy, and unloading releases the moment with the area.
+/// The spring's moment has no potential. It is therefore reduced when the contact stiffens (`softened`): stiffening
+/// adds no energy, and unloading reduces the moment with the area.
 struct SpringDashpotRolling : RollingFriction {
   static constexpr RollingModel choice = RollingModel::spring_dashpot;
   static constexpr std::string_view word = "spring_dashpot";
@@ -99,9 +99,9 @@ struct SpringDashpotRolling : RollingFriction {
   }
 };
 
-/// Constant torque mu_r N R* against the relative spin. Near rest it turns into a dashpot: without that the torque's
-/// sign would alternate and add energy to the heap. In one step a dashpot takes at most a fifth of a grain's spin, a
-/// tenth among equal grains, so that all the contacts of a grain together stay below twice of it. It remembers its last
+/// Constant torque mu_r N R* against the relative spin. Near rest it becomes a dashpot: otherwise the torque would
+/// alternate in sign and add energy to the heap. In one step the dashpot takes at most a fifth of a grain's spin, a
+/// tenth between equal grains, so that all contacts of a grain together stay below twice its spin. It stores its last
 /// torque.
 struct ConstantTorqueRolling : RollingFriction {
   static constexpr RollingModel choice = RollingModel::constant_torque;

@@ -10,15 +10,15 @@
 
 namespace pastefit {
 
-/// Elastic spheres that attract each other in proportion to the area in which they meet ("simplified JKR" of LIGGGHTS):
+/// Elastic spheres with an attraction proportional to the contact area ("simplified JKR" of LIGGGHTS):
 ///     F = 4/3 E* sqrt(R*) d^(3/2) - k A,   A = 2 pi R* d,   d > 0,
-/// k the cohesion energy density [J/m^3 = Pa]. A is the disc in which two spheres, or a sphere and a plane, cut each
-/// other, to first order in d/R*: LIGGGHTS' `sjkr` has it whole, pi (2 R* d - d^2/4) for equal grains, a quarter of a
-/// percent less at d = R*/50; its `sjkr2` has 2 A, so that half of k there is this law. The largest attraction is
-/// 2/3 pi^3 k^3 R*^2/E*^2, at d = (pi k/E*)^2 R*; unlike that of JKR it falls with the stiffness of the grains. There
-/// is none at touch or beyond, and a cycle of approach and pull loses nothing.
+/// with k the cohesion energy density [J/m^3 = Pa]. A is the disc in which two spheres, or a sphere and a plane,
+/// intersect, to first order in d/R*. LIGGGHTS's `sjkr` has the exact disc, pi (2 R* d - d^2/4) for equal grains, a
+/// quarter of a percent less at d = R*/50; its `sjkr2` has 2 A, so that half of k there gives this law. The pull-off
+/// force is 2/3 pi^3 k^3 R*^2/E*^2, at d = (pi k/E*)^2 R*; unlike that of JKR it decreases with the stiffness of the
+/// grains. There is no attraction at touch or beyond, and a cycle of approach and separation loses no energy.
 ///
-/// Friction feels the elastic part, or of the total force F, which has no reserve here. k is scale-free as it is.
+/// Friction uses the elastic part, or with `total` F without a reserve. k is scale-free.
 struct Sjkr {
   static constexpr NormalLaw choice = NormalLaw::sjkr;
   static constexpr std::string_view word = "sjkr";
@@ -56,7 +56,7 @@ struct Sjkr {
                                        Real inverse_contact_radius) {
     return Hertz::widening(k, radius, energy, inverse_contact_radius);
   }
-  /// In x = sqrt(d) the force is h x^3 - c x^2, by Newton's steps from above, which never pass the root.
+  /// In x = sqrt(d) the force is h x^3 - c x^2; Newton steps from above never pass the root.
   static double overlap_under(const PairConstants& k, double radius, double load) {
     const double h = k.hertz * std::sqrt(radius), c = k.adhesion * radius;
     double x = c / h + std::cbrt(load / h);
@@ -67,7 +67,7 @@ struct Sjkr {
     }
     return x * x;
   }
-  /// Slow bodies swing about where the force is zero, with dF/dd = pi k R* there.
+  /// Slow bodies oscillate about the equilibrium overlap, with dF/dd = pi k R* there.
   static double collision_time(const PairConstants& k, double radius, double mass, double speed) {
     return std::min(Hertz::collision_time(k, radius, mass, speed),
                     std::numbers::pi * std::sqrt(mass / (0.5 * k.adhesion * radius)));

@@ -19,7 +19,7 @@ struct TypeList {
   static constexpr std::size_t size = sizeof...(Laws);
 };
 
-/// All laws, in the order of their names in materials.h. Kernels, words of files and constants of pairs are made from
+/// All laws, in the order of their names in materials.h. Kernels, names in files and constants of pairs follow from
 /// these rows.
 using NormalLaws = TypeList<Hertz, Jkr, Dmt, Sjkr, Epa, Luding>;
 using Attractions =
@@ -35,13 +35,13 @@ struct LawOf<TypeList<Laws...>, row> {
 template <class List, std::size_t row>
 using Law = typename LawOf<List, row>::type;
 
-/// The row of a law.
+/// Row of a law.
 template <class Choice>
 constexpr std::size_t row_of(Choice choice) {
   return static_cast<std::size_t>(choice);
 }
 
-/// Calls `visit(Law{})` with the law of that name, a type without data, and returns what it returns.
+/// Calls `visit(Law{})` with the law of this name, an empty type, and returns the result.
 template <class... Laws, class Choice, class Visitor>
 auto with_law(TypeList<Laws...>, Choice choice, const Visitor& visit) {
   using Result = std::common_type_t<decltype(visit(Laws{}))...>;
@@ -54,13 +54,13 @@ auto with_law(TypeList<Laws...>, Choice choice, const Visitor& visit) {
   }
 }
 
-/// The law of the overlap that acts on a pair: those that adhere are Hertz where there is nothing to adhere by.
+/// The normal law of a pair: adhesive laws reduce to Hertz without adhesion.
 inline NormalLaw acting(NormalLaw law, const PairConstants& pair) {
   const bool adheres = with_law(NormalLaws{}, law, [](auto normal) { return normal.adheres; });
   return adheres && pair.adhesion == 0 ? NormalLaw::hertz : law;
 }
 
-/// Whether the two go together. Kernels of those that do not are not compiled, and no scene may ask for them.
+/// True if the two can be combined. Kernels of other combinations are not compiled, and scenes must not use them.
 template <class Normal, class Attraction>
 constexpr bool go_together(Normal, Attraction) {
   return Normal::beside_bridges || !Attraction::present;
@@ -73,7 +73,7 @@ inline bool go_together(NormalLaw normal, BridgeShape attraction) {
 
 namespace detail {
 
-/// Every name has its row, and every row the place of its name.
+/// Every name has a row at its place, and there are no other rows.
 template <class Choice, class... Laws>
 constexpr bool is_complete(TypeList<Laws...>) {
   std::size_t row = 0;

@@ -75,14 +75,15 @@ Faults validate(const Impact& test);
 ///   max_force_n           all forces except its weight
 ///   contact_time_s        total
 ///   pull{k}_n             attraction at the k-th of `pull_gaps_m`, at the last passage; absent if never passed
-///   decay_rate_1_s        of its oscillation about the start, along its first velocity; absent before two turning
-///   points rebound_top_m         highest z since first touch; absent without touch
+///   decay_rate_1_s        of its oscillation about the start, along its first velocity; absent unless it turned twice
+///   rebound_top_m         highest z since first touch; absent without touch
 /// First two grains:
 ///   relative_speed_m_s    of their centres
 /// All:
 ///   kinetic_energy_ratio  end over start; absent for a start at rest
-///   momentum_drift        momentum not explained by impulses of walls, gravity and holding, over the largest sum of m
-///   |v| work_j                of the forces that hold grains time_s
+///   momentum_drift        momentum that no impulse explains (walls, gravity, holding), over the largest sum of m |v|
+///   work_j                of the forces that hold grains
+///   time_s
 /// A rotor that reached its stop: `rotor_time_s`, `rotor_rad_s`. Requirement: `validate(test)` is empty.
 Outcome simulate(const Impact& test, const RunOptions& options = {});
 

@@ -12,12 +12,12 @@ namespace pastefit {
 
 namespace {
 
-constexpr int kStepsPerLook = 64;  // at the highest point of the heap
-// [radii] A lost heap may rise by so much again: a mould that drags it along, a column that swings, a grain that hops.
-// Twice the most that was seen (tests/results/skipping.md).
+constexpr int kStepsPerLook = 64;  // between two checks of the highest point
+// [radii] Largest possible rise of a lost heap: dragged by the mould, oscillating, or a hopping grain. Twice the
+// largest rise observed (tests/results/skipping.md).
 constexpr double kRebound = 1;
 
-/// Step 1, phase by phase, each as a person in the laboratory would say it.
+/// Step 1, one function per phase.
 class MouldLift {
  public:
   MouldLift(const SlumpTest& test, const Packing& filled, const RunOptions& options)
@@ -38,12 +38,12 @@ class MouldLift {
     return runner_.show("step1.rest");
   }
 
-  /// Step 1 is certain to read less than is asked for: its highest point and the roughness of the packing lie a grain's
-  /// radius below. No height is above those two, and while nothing lifts a heap that only sinks, but for a column that
-  /// swings, a grain that hops, a mould that drags them along (by less than half a radius, tests/results/skipping.md).
+  /// True if step 1 is certain to read less than the cutoff: the highest point plus the roughness of the packing is a
+  /// grain radius below it. No height exceeds this sum, and a heap only sinks, except for oscillations, hopping grains,
+  /// and drag by the mould (less than half a radius, tests/results/skipping.md).
   bool lost() const { return lost_below_ > 0 && highest_point(world_.particles) < lost_below_; }
 
-  /// Step 1 reads beyond what is asked for.
+  /// True if the reading of step 1 is outside the cutoff.
   bool is_unwanted(const Readings& readings) const {
     if (!options_.cutoff) return false;
     const double height_mm = readings.find(options_.cutoff->reading).value_or(0);
@@ -57,8 +57,8 @@ class MouldLift {
   const RunSummary& summary() { return runner_.summary(); }
 
  private:
-  /// The lift is over when the mould is above the heap; or when it touches nothing and the heap is at rest, because
-  /// then nothing can move any more however much farther it rises. With fixed waits: when it has risen by its height.
+  /// The lift ends when the mould is above the heap, or when it touches nothing and the heap is at rest, because then
+  /// nothing can move any more. With fixed waits it ends after a rise by the height of the mould.
   std::optional<Failure> lift_mould() {
     Wall& mould = world_.walls[kMould];
     mould.velocity = {0, 0, test_.lift_velocity_m_s};
@@ -79,8 +79,8 @@ class MouldLift {
     return holds && highest_point(world_.particles) > rim_m ? let_down(rim_m) : std::nullopt;
   }
 
-  /// What hangs in a mould that has been lifted, upside down or sticky, is let down at the same speed, as a person
-  /// shakes it out: a free fall would crush it.
+  /// A heap that hangs in the lifted mould (inverted or sticky) is let down at the lift speed, as if shaken out: a free
+  /// fall would crush it.
   std::optional<Failure> let_down(double height_m) {
     world_.drag = kGravity / test_.lift_velocity_m_s;
     auto problem =
@@ -90,7 +90,7 @@ class MouldLift {
     return problem;
   }
 
-  /// The heap comes to rest on the table, unless it did so under the mould, or is lost before.
+  /// The heap comes to rest on the table, unless it already is at rest, or is lost.
   std::optional<Failure> rest_on_table() {
     if (rests_) return {};
     return runner_.settle({"step1.rest", time_flow(), look_whether_lost()}, kRestCap);
@@ -101,7 +101,7 @@ class MouldLift {
     return [this](const World& world) { return world.step % kStepsPerLook == 0 && lost(); };
   }
 
-  /// Takes the spread from time to time, where somebody asks for it; changes nothing of the world.
+  /// Records the spread, if a reading needs it; does not change the world.
   std::function<void(World&, double)> time_flow() {
     if (!is_timed(test_)) return {};
     return [this](World& world, double) { spreads_.take(world, test_.grains.radius_m); };
@@ -113,16 +113,16 @@ class MouldLift {
   Runner runner_;
   Ruler ruler_;
   SpreadSeries spreads_;
-  bool rests_ = false;     ///< before the mould was gone, and untouched by it
+  bool rests_ = false;     ///< at rest without contact to the mould before its removal
   double lost_below_ = 0;  ///< highest point [m]
 };
 
-/// The times of the flow, and the spread against time.
+/// Times of the flow, and spread against time.
 void read_times(const SlumpTest& test, const MouldLift& lift, Outcome& outcome) {
   const SpreadSeries& spreads = lift.spreads();
   outcome.curve = spreads.curve();
   if (const auto& flow = test.reading.flow) {
-    // Without a time the heap has not got so far: its reading is absent.
+    // Absent if the heap never was this wide.
     if (const auto time = spreads.time_to(flow->diameter_m)) outcome.readings.set("step1.t500_s", *time);
     outcome.readings.set("step1.flow_time_s", spreads.time_of_flow());
   }
@@ -135,7 +135,7 @@ void add_up(RunSummary& sum, const RunSummary& part) {
   sum.particle_steps += part.particle_steps;
 }
 
-/// The summary of the lift with that of the drops after it.
+/// Summary of the lift and of the drops after it.
 RunSummary together(RunSummary lift, const RunSummary& drops) {
   lift.simulated_s += drops.simulated_s;
   lift.advised_step_s = std::min(lift.advised_step_s, drops.advised_step_s);
@@ -182,7 +182,7 @@ Outcome simulate(const SlumpTest& test, const RunOptions& options) {
     }
   }
   outcome.run.ended_early = ended_early;
-  if (options.fixed_wait_s) outcome.run.settled = false;  // nobody looked
+  if (options.fixed_wait_s) outcome.run.settled = false;  // not checked
   if (!options.packing) add_up(outcome.run, packing->run);
   add_up(outcome.run, filled.run);
   return outcome;

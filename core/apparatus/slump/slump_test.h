@@ -15,14 +15,14 @@
 
 namespace pastefit {
 
-/// An open frustum that stands on the table, either end down: a cone upside down has the wider one on top.
+/// An open frustum on the table; with the wider end on top it is an inverted cone.
 struct Mould {
   double base_radius_m = 0.100;
   double top_radius_m = 0.065;
   double height_m = 0.200;
 };
 
-/// Of its two ends.
+/// The wider and the narrower of its two ends.
 double wider_radius_m(const Mould& mould);
 double narrower_radius_m(const Mould& mould);
 
@@ -31,65 +31,65 @@ double volume_m3(const Mould& mould);
 
 /// How the table under a heap is dropped.
 enum class TableMotion {
-  hinged,   ///< a square plate turns up about an edge and falls back (EN 12350-5)
-  vertical  ///< a round table is raised by a cam and falls upright, as a jolting table does (EN 1015-3, ASTM C230)
+  hinged,   ///< a square plate rotates up about an edge and falls back (EN 12350-5)
+  vertical  ///< a cam raises a round table, which falls vertically, as a jolting table does (EN 1015-3, ASTM C230)
 };
 
-/// The plate of the flow table on which the mould stands, centred under it. Its seat stops it dead, as one of infinite
-/// mass would: the standards mount their tables on blocks of a hundred kilograms or more.
-/// Hinged: the hinge is the edge at x = -length/2, the free edge the one at x = +length/2.
+/// The plate or table of a flow test, centred under the mould. Its seat stops it dead, as an infinite mass would:
+/// standards mount it on blocks of a hundred kilograms or more.
+/// Hinged: the hinge is the edge at x = -length/2, the free edge that at x = +length/2.
 struct DropPlate {
-  double length_m = 0.700;  ///< side of the square plate, diameter of the round one
+  double length_m = 0.700;  ///< side of the square plate, diameter of the round table
   double mass_kg = 16.0;
-  double lift_height_m = 0.040;  ///< rise of the free edge at the upper stop; of the whole table
-  double lift_duration_s = 0.5;  ///< time the hinged plate takes to turn up to the stop; a cam's lift takes none
-  double period_s = 2.0;         ///< from one drop to the next, where there are several
+  double lift_height_m = 0.040;  ///< rise of the free edge at the upper stop, or of the whole table
+  double lift_duration_s = 0.5;  ///< duration of the rise of a hinged plate; a vertical table is raised at once
+  double period_s = 2.0;         ///< from one drop to the next, if there are several
   TableMotion motion = TableMotion::hinged;
   int drops = 1;
 };
 inline constexpr int kMostDrops = 100;
 
-/// Which point of the heap the laboratory calls its height.
+/// Which point of the heap is its height.
 enum class HeightReading {
-  axis,    ///< mean over the probe disc where the middle of the struck-off top has gone (ASTM C143: displaced centre)
-  highest  ///< the highest point of the body (EN 12350-2)
+  axis,    ///< mean over the probe disc at the displaced centre of the struck-off top (ASTM C143)
+  highest  ///< the highest point of the heap (EN 12350-2)
 };
 
-/// The part of a heap's flank along which its angle of repose is read, as shares of the heap's height: without the
-/// rounded tip and the grains that have rolled out at the foot.
+/// The part of a flank on which the angle of repose is read, as shares of the heap's height: without the rounded tip
+/// and the grains that rolled away at the foot.
 struct Flank {
   double lower_share = 0.2, upper_share = 0.8;
 };
 
-/// How the flow is timed: from the moment at which the lift begins.
+/// Timing of the flow, from the beginning of the lift.
 struct FlowTiming {
-  double diameter_m = 0.5;  ///< of the circle that T500 is the time to (EN 12350-8: 500 mm)
+  double diameter_m = 0.5;  ///< circle whose passage gives T500 (EN 12350-8: 500 mm)
 };
 
-/// A point of a measured curve of the spread against time: s and m.
+/// A point of a measured curve of spread against time: s and m.
 using SpreadPoint = std::array<double, 2>;
 
-/// How heights are read from the heap.
+/// How the heap is measured.
 struct ReadingMethod {
   HeightReading height = HeightReading::axis;
   double probe_diameter_m = 0.040;
-  double sag_window_m = 0.100;  ///< of the top about the axis, over which its sag after step 2 is read
-  /// Outlines of the heap as seen from the side, along the hinge, by a person with a ruler; x from the middle of the
-  /// table towards the free edge. Empty: not measured.
+  double sag_window_m = 0.100;  ///< width of the top around the axis on which the sag after step 2 is read
+  /// Measured outlines of the heap in side view along the hinge; x from the centre of the table towards the free edge.
+  /// Empty: not measured.
   std::vector<OutlinePoint> outline_step1, outline_step2;
-  std::optional<FlowTiming> flow;         ///< after the lift begins; not timed without
-  std::vector<SpreadPoint> spread_curve;  ///< as measured, from the beginning of the lift; empty: not measured
-  std::optional<Flank> flank;             ///< of the angle of repose after step 1; not read without
+  std::optional<FlowTiming> flow;         ///< of the flow after the lift begins; empty: not timed
+  std::vector<SpreadPoint> spread_curve;  ///< measured, from the beginning of the lift; empty: not measured
+  std::optional<Flank> flank;             ///< for the angle of repose after step 1; empty: not read
 };
 
-/// The slump test as one value: the specimen, whose density is that of the fresh material in the mould, and the
-/// apparatus. The density of a grain follows from the packing.
-/// Step 1: fill, strike off, lift the mould. Step 2 (only if `drop` is set): raise the plate, let it fall once; and so
-/// on, as often as it says.
+/// The slump test: the specimen, with the density of the fresh material in the mould, and the apparatus. The density of
+/// a grain follows from the packing.
+/// Step 1: fill, strike off, lift the mould. Step 2 (only if `drop` is set): raise the plate and drop it, once or
+/// several times.
 struct SlumpTest : Specimen {
   Mould mould;
   double lift_velocity_m_s = 0.1;
-  double table_length_m = 0.700;  ///< side of the square table (and of the plate)
+  double table_length_m = 0.700;  ///< side of the square table and of the plate
   std::optional<DropPlate> drop;
   ReadingMethod reading;
 
@@ -97,12 +97,12 @@ struct SlumpTest : Specimen {
   WallContact table_wall{1e9, 0.3, 0.3, 0.5, 0.1, 0.0};
 };
 
-/// Of the empty plate from its upper stop to the lower one [s]; a heap on it changes it by little.
+/// Fall time of the empty plate from its upper stop to its seat [s]; a heap on it has little effect.
 /// Vertical: sqrt(2 h/g). Hinged, as a rod about its end: sqrt(2 L asin(h/L)/(1.5 g)).
-/// Requirement: a lift height of at most the length.
+/// Requirement: the lift height is at most the length.
 double fall_time_s(const DropPlate& plate);
 
-/// In which one drop moves the plate, up and down [s].
+/// Duration of one drop, rise and fall [s].
 double moving_time_s(const DropPlate& plate);
 
 inline constexpr std::array<Dimension<Mould>, 3> mould_dimensions{{
@@ -142,25 +142,25 @@ inline constexpr std::array<Dimension<Flank>, 2> flank_dimensions{{
      true},
 }};
 
-/// Every fault that keeps this test from being simulated (dimensions, ranges, admissible bridge, mould of a few
-/// grains). Places are named by the field's path, e.g. "contact.bridge.d_c_m". Empty: fit to run.
+/// Returns the reasons why the test cannot run (dimensions, ranges, inadmissible bridge, too few grains in the mould);
+/// empty if it can. Places are field paths, e.g. "contact.bridge.d_c_m".
 Faults validate(const SlumpTest& test);
 
 /// Runs the slump test. Same test, options and program: same bits.
-/// Requirement: `validate(test)` is empty; a cutoff is of `step1.height_mm`. Never throws for bad physics: see
-/// `Outcome::failure`.
+/// Requirements: `validate(test)` is empty; a cutoff refers to `step1.height_mm`. Errors: bad physics is reported in
+/// `Outcome::failure`, never thrown.
 Outcome simulate(const SlumpTest& test, const RunOptions& options = {});
 
-/// The names of all readings the test will have, in order (with or without step 2).
+/// Names of all readings of this test, in order (with or without step 2).
 std::vector<std::string> reading_names(const SlumpTest& test);
 
-/// The stages of a slump test.
+/// Stages of a slump test.
 inline constexpr int kFill = 0, kStep1 = 1, kStep2 = 2, kAfterDrops = 3;
 
-/// Whether the apparatus asks for a reading that is taken on request only (`ReadingKind::on_request`).
+/// True if the apparatus requests a reading that is taken on request only (`ReadingKind::on_request`).
 bool is_asked_for(const SlumpTest& test, std::string_view reading);
 
-/// Every reading of slump tests, in the order in which a simulation gives them; those that this one lacks say so.
+/// All readings of slump tests, in the order of the simulation; those that this test cannot give have a `lack`.
 std::vector<ReadingKind> reading_kinds(const SlumpTest& test);
 
 }  // namespace pastefit

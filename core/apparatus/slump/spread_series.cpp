@@ -12,9 +12,9 @@ namespace pastefit {
 namespace {
 
 constexpr double kInterval = 0.01;  // [s]
-constexpr double kSpread = 0.99;    // share of the last spread at which the flow has stopped
+constexpr double kSpread = 0.99;    // share of the final spread at which the flow has stopped
 
-/// Where the line through both points has this height.
+/// Where the line through both points reaches this height.
 double crossing(const CurvePoint& a, const CurvePoint& b, double y) {
   return a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y);
 }
