@@ -5,8 +5,8 @@
 
 namespace pastefit {
 
-/// Random numbers from a named, counter-based stream: the n-th number is a pure function of (seed, name, n), whoever
-/// asks for it and in whatever order. Two names never share numbers. Method: the finaliser of SplitMix64 (Steele, Lea &
+/// Random numbers from a named, counter-based stream: the n-th number is a pure function of (seed, name, n),
+/// independent of the order of calls. Two names never share numbers. Method: the finaliser of SplitMix64 (Steele, Lea &
 /// Flood 2014) applied twice to a mix of key and counter. Not for cryptography.
 class RandomStream {
  public:

@@ -10,23 +10,23 @@
 
 namespace pastefit {
 
-/// A number that is not in its range, bounds included.
+/// A number outside its range; the range includes its bounds.
 struct OutOfRange {
   double value = 0, smallest = 0, largest = 0;
   std::string unit;
 };
 
-/// One thing that is wrong in what the user gave: where it stands, what is wrong, and what would be right.
+/// One error in the input: where it is, what is wrong, and what would be right.
 struct Fault {
   std::string where;   ///< place in the file, e.g. "apparatus.mould.height_mm", or an option's name
   std::string what;    ///< what is wrong, with the value
   std::string remedy;  ///< what would be right
-  std::optional<OutOfRange> range = std::nullopt;  ///< what `what` and `remedy` say, where that is all there is to say
+  std::optional<OutOfRange> range = std::nullopt;  ///< set if `what` and `remedy` only state this range
 };
 
 using Faults = std::vector<Fault>;
 
-/// A value, or every fault that kept it from being made.
+/// A value, or all the reasons why it could not be made.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -45,36 +45,36 @@ class [[nodiscard]] Result {
   std::variant<T, Faults> content_;
 };
 
-/// Why a simulation has no answer. Bad physics is a result, never an exception.
+/// Why a simulation failed. Bad physics is a result, never an exception.
 enum class FailureReason {
   non_finite,         ///< a position, velocity or force is not a number
   excessive_overlap,  ///< two bodies interpenetrate beyond the bound
   grain_lost,         ///< a grain passed through a boundary
-  runaway_speed,      ///< a grain is faster than anything in the scene can make it
-  energy_created,     ///< there is more energy than the energy balance explains
-  energy_lost,        ///< there is less
-  step_collapse,      ///< the stable time step shrinks without end
-  never_settled,      ///< the heap is not at rest when the time allowed is over
+  runaway_speed,      ///< a grain is faster than physically possible in the scene
+  energy_created,     ///< energy balance: more energy than explained
+  energy_lost,        ///< energy balance: less energy than explained
+  step_collapse,      ///< the stable time step decreases without limit
+  never_settled,      ///< the heap is not at rest at the end of the allowed time
   packing_failed,     ///< the mould could not be filled
-  fell_apart,         ///< the specimen does not hold together
-  step_limit,         ///< the bound on the number of steps was reached
-  engine_failed,      ///< another engine, or the process it ran in, gave no answer
+  fell_apart,         ///< the specimen collapsed
+  step_limit,         ///< the limit on the number of steps was reached
+  engine_failed,      ///< another engine, or its process, gave no result
   stopped             ///< the caller asked to stop (time limit or interrupt)
 };
 
-/// The reason's name as it is stored and printed, e.g. "excessive_overlap".
+/// Name of the reason in files and messages, e.g. "excessive_overlap".
 std::string_view name_of(FailureReason reason);
 
-/// A failed simulation, classified: what happened, when, to which grain, against which limit.
+/// A classified failure: what happened, when, to which grain, against which limit.
 struct Failure {
   FailureReason reason{};
   std::string phase;        ///< e.g. "step1.lift"
-  std::int64_t step = 0;    ///< time step at which it was seen
-  double time_s = 0;        ///< simulated time at which it was seen
+  std::int64_t step = 0;    ///< time step of detection
+  double time_s = 0;        ///< simulated time of detection
   std::int64_t grain = -1;  ///< identity of the grain, -1 if none
-  double value = 0;         ///< what was seen
-  double limit = 0;         ///< what is allowed
-  std::string message;      ///< one sentence for a person, ending with what to do
+  double value = 0;         ///< observed value
+  double limit = 0;         ///< allowed value
+  std::string message;      ///< one sentence for the user, ending with what to do
 };
 
 }  // namespace pastefit

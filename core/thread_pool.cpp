@@ -6,7 +6,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr int kPatience = 20000;  // looks before a thread goes to sleep: some tens of microseconds
+constexpr int kPatience = 20000;  // polls before a thread sleeps: some tens of microseconds
 
 /// Waits until `value` is no longer `old`.
 template <class T>
@@ -24,7 +24,7 @@ ThreadPool::ThreadPool(int size) {
   try {
     for (int member = 1; member < size; ++member) helpers_.emplace_back([this, member] { help(member); });
   } catch (const std::system_error&) {
-    // As many as the system lets us have: the bits are the same.
+    // Continue with as many as the system allows: the bits are the same.
   }
 }
 

@@ -6,13 +6,13 @@
 
 namespace pastefit {
 
-/// a b + c. Packs of processors that have it take the instruction that rounds only once (core/laws/pack.h); plain
-/// doubles round twice, on every processor.
+/// a b + c. Packs use the fused instruction, which rounds only once, where the processor has it (core/laws/pack.h);
+/// plain doubles round twice, on every processor.
 PASTEFIT_INLINE double fused(double a, double b, double c) {
   return a * b + c;
 }
 
-/// A vector of three components. Plain struct, no alignment: cold geometry and the packed rows of the particles use it
+/// A vector of three components. Plain struct without alignment, for geometry and for the packed rows of the particles
 /// alike.
 template <class Real>
 struct BasicVec3 {

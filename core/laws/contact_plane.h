@@ -28,9 +28,9 @@ PASTEFIT_INLINE Turned<Real> turned(const BasicVec3<Real>& a, const BasicVec3<Re
   return {fused(twist_angle, cross(n, b), b), along * along, larger(dot(b, b), Real(kFloor))};
 }
 
-/// sqrt(1 + x) to second order, sufficient for the few hundredths of a degree that a contact rotates in a step.
-/// Bounded, because the slip of a head-on collision is pure rounding and may lie entirely along the normal; there is no
-/// length to restore.
+/// sqrt(1 + x) to first order, sufficient for the few hundredths of a degree that a contact rotates in a step. Bounded,
+/// because the slip of a head-on collision is pure rounding and may lie entirely along the normal; there is no length
+/// to restore.
 template <class Real>
 PASTEFIT_INLINE Real restored(const Turned<Real>& t) {
   return Real(1.0) + Real(0.5) * smaller(t.lost / t.square, Real(1.0));

@@ -8,34 +8,33 @@
 
 namespace pastefit {
 
-/// A contact as its resistance to sliding sees it.
+/// A contact as the sliding law sees it.
 template <class Real>
 struct TangentialContact {
-  BasicVec3<Real> velocity;   ///< across the normal [m/s]
-  detail::Turned<Real> slip;  ///< of the last step, turned with the contact
-  Real restored;              ///< factor that gives it its length back
+  BasicVec3<Real> velocity;   ///< tangential [m/s]
+  detail::Turned<Real> slip;  ///< of the last step, rotated with the contact
+  Real restored;              ///< factor that restores its length
   Real radius;                ///< R* [m]
-  Real friction_load;         ///< normal force that friction feels, without that of the spring [N]
+  Real friction_load;         ///< normal force in the friction limit, without that of the spring [N]
 };
 
 /// The tangential spring at the end of a step.
 template <class Real>
 struct TangentialSpring {
-  Real held;          ///< share of the stretched slip that the spring alone may hold
-  Real kept;          ///< share of that which friction leaves
+  Real held;          ///< share of the stretched slip within the limit of the spring alone
+  Real kept;          ///< share of that within the friction limit
   Real energy;        ///< [J]
-  Real normal_force;  ///< by which its energy grows with the overlap [N]
+  Real normal_force;  ///< derivative of its energy by the overlap [N]
 };
 
-/// Mindlin spring and dashpot across the normal, limited by Coulomb friction together. Sets the tangential force, adds
-/// to the normal force, and updates the slip.
+/// Mindlin spring and tangential dashpot, limited by Coulomb friction together. Sets the tangential force, adds to the
+/// normal force, and updates the slip.
 ///
-/// The spring is T = S_t s with S_t = 8 G* a, as Mindlin's without slip inside the contact. It holds the energy
-/// U = S_t s^2/2, which grows with the overlap; its derivative, U/(2 d) for Hertz, acts along the normal. Without that
-/// part a contact that is pressed while it is stretched would make energy (5 % in a collision); with it none is made or
-/// lost but by friction. The spring alone holds no more than mu times the repulsion and its own normal force, the
-/// tangential force altogether no more than mu times the load (`friction_of_total`) and that normal force, which is at
-/// most mu^2/5 of the repulsion.
+/// The spring is T = S_t s with S_t = 8 G* a, as Mindlin's without slip inside the contact. It stores U = S_t s^2/2,
+/// which grows with the overlap; the derivative, U/(2 d) for Hertz, acts along the normal. Without this force a
+/// stretched contact under increasing load would create energy (5 % in a collision); with it only friction dissipates.
+/// The spring alone is limited to mu times the repulsion and its own normal force; the total tangential force is
+/// limited to mu times the load (`friction_of_total`) and that normal force, which is at most mu^2/5 of the repulsion.
 template <class Normal, class Real>
 PASTEFIT_INLINE TangentialSpring<Real> slide(const ConstantsOf<Real>& k, const TangentialContact<Real>& c,
                                              const NormalForce<Real>& normal, const Dashpots<Real>& d, Real dt,
@@ -60,11 +59,11 @@ PASTEFIT_INLINE TangentialSpring<Real> slide(const ConstantsOf<Real>& k, const T
   return spring;
 }
 
-/// Counts what spring, dashpot and friction dissipated in the step, and what the spring stores.
+/// Counts the energy dissipated by spring, dashpot and friction in the step, and the energy stored in the spring.
 ///
-/// Work is along the mean of the velocities before and after each step, summed by parts: the damper of this step counts
-/// for three quarters, that of the last for one; not for more where a contact that held is suddenly torn away.
-/// `approach`: of the bodies along the normal [m/s].
+/// Work uses the mean of the velocities before and after each step, summed by parts: the damper of this step counts
+/// three quarters, that of the last step one quarter; not more if a sticking contact suddenly separates.
+/// `approach`: velocity of approach along the normal [m/s].
 template <class Normal, class Real>
 PASTEFIT_INLINE void count_sliding(const ConstantsOf<Real>& k, const TangentialContact<Real>& c,
                                    const TangentialSpring<Real>& spring, const Dashpots<Real>& d, Real approach,

@@ -14,11 +14,11 @@ namespace pastefit {
 
 namespace {
 
-constexpr int kDirections = 24;  // over half a turn
-// Of pi/24. As numbers: the last bits of cos and sin differ between processors.
+constexpr int kDirections = 24;  // in half a turn
+// Of pi/24. As constants: the last bits of cos and sin differ between processors.
 constexpr double kCosine = 0.99144486137381041, kSine = 0.13052619222005159;
 
-/// Offsets of grid points under a ball, and how far its surface lies below its top (or above its bottom) there.
+/// Offsets of grid points below a ball, and the depth of its surface below its top (or height above its bottom) there.
 struct Stamp {
   struct Point {
     int dx, dy;
@@ -35,8 +35,8 @@ struct Stamp {
       }
   }
 
-  /// Calls `meet(here, there, rise)` for every point of a square of n x n points and every one that the ball covers
-  /// when its middle is there. A point of the ball after the other, so that rows are worked on as vectors.
+  /// Calls `meet(here, there, rise)` for every point of a square of n x n points and every point covered by a ball
+  /// centred there. Loops over the points of the ball outside, so that rows are vectorised.
   template <class Meet>
   void press(int n, const Meet& meet) const {
     for (const Point& p : points)
@@ -72,7 +72,7 @@ HeightField::HeightField(const Particles& particles, double mean_radius, double 
       }
   }
 
-  // Closing: where a ball resting on the envelope has its centre, and how deep it reaches there.
+  // Closing: centre of a ball that rests on the envelope, and the lowest height it reaches.
   const Stamp ball(kClosingBall * mean_radius, spacing_);
   std::vector<double> resting(envelope.size(), 0.0);
   ball.press(
@@ -102,11 +102,11 @@ std::vector<double> rest_measure_of_heap(const Particles& particles) {
 
 namespace {
 
-/// Calls `visit(x, y, height)` for the points of the closed surface on a disc; x and y from its middle.
+/// Calls `visit(x, y, height)` for the points of the closed surface on a disc; x and y from its centre.
 template <class Visitor>
 void each_on_disc(const Particles& particles, double mean_radius, const Disc& disc, const Visitor& visit) {
   const double radius = 0.5 * disc.diameter;
-  // The closing ball looks twice its radius beyond the disc.
+  // The closing ball reaches twice its radius beyond the disc.
   const HeightField field(particles, mean_radius, radius + 2 * kClosingBall * mean_radius, disc.x, disc.y);
   for (int iy = 0; iy < field.points(); ++iy)
     for (int ix = 0; ix < field.points(); ++ix) {
@@ -128,7 +128,7 @@ double mean_height(const Particles& particles, double mean_radius, const Disc& d
 }
 
 double slope_along_x(const Particles& particles, double mean_radius, const Disc& disc) {
-  // The disc is symmetric about its middle: the regression on x alone is that of the plane.
+  // The disc is symmetric about its centre: the regression on x alone equals that of the plane.
   double covariance = 0, variance = 0;
   each_on_disc(particles, mean_radius, disc, [&](double x, double, double height) {
     covariance += x * height;
@@ -139,7 +139,7 @@ double slope_along_x(const Particles& particles, double mean_radius, const Disc&
 
 namespace {
 
-/// A heap as it is met on rays from the vertical through its middle.
+/// A heap on rays from the vertical through its centre.
 class RayedHeap {
  public:
   RayedHeap(const Particles& particles, double mean_radius)
@@ -149,7 +149,7 @@ class RayedHeap {
 
   const Vec3& middle() const { return middle_; }
 
-  /// How far the surface reaches at this height or above, mean over all directions; nothing if in one nowhere.
+  /// Radius of the surface at this height or above, mean over all directions; empty if one direction has none.
   std::optional<double> radius_at(double height) const {
     double sum = 0, cosine = 1, sine = 0;
     for (int d = 0; d < 2 * kDirections; ++d) {
@@ -180,7 +180,7 @@ class RayedHeap {
     return volume > 0 ? Vec3{middle.x / volume, middle.y / volume, 0} : Vec3{};
   }
 
-  /// Distance within which nearly all grains lie: single ones roll far.
+  /// Distance within which nearly all grains are: single grains roll far.
   static double reach_of_most(const Particles& particles, const Vec3& middle) {
     constexpr double kMost = 0.98;
     std::vector<double> distances;
@@ -195,7 +195,7 @@ class RayedHeap {
     return std::min(*most, 5.0);
   }
 
-  /// Linear between the points of the field.
+  /// Linear interpolation between the points of the field.
   double surface(double x, double y) const {
     const int half = field_.points() / 2, last = field_.points() - 2;
     const auto place = [&](double c) { return std::clamp(c / field_.spacing() + half, 0.0, last + 1.0); };
@@ -215,7 +215,7 @@ class RayedHeap {
 
 std::optional<double> flank_angle(const Particles& particles, double mean_radius, double lower, double upper) {
   constexpr int kFewestLevels = 4;
-  constexpr double kTip = 5;  // [mean radii] diameter of the disc on which the height is read
+  constexpr double kTip = 5;  // [mean radii] diameter of the disc for the height
   if (particles.count() == 0) return std::nullopt;
   const RayedHeap heap(particles, mean_radius);
   const double height = mean_height(particles, mean_radius, {heap.middle().x, heap.middle().y, kTip * mean_radius});
@@ -263,7 +263,7 @@ Widths widths_of(const Particles& particles, const std::vector<std::int32_t>& bo
   return result;
 }
 
-/// Grains as discs in plan, widened by half the gap that may separate grains of one body, and sorted into square cells.
+/// Grains as discs in plan, widened by half the largest gap within a body, and sorted into square cells.
 class PlanCells {
  public:
   PlanCells(const Particles& particles, double mean_radius)
@@ -284,7 +284,7 @@ class PlanCells {
     }
   }
 
-  /// Calls `visit(j)` for all grains that may touch grain `i`, itself among them.
+  /// Calls `visit(j)` for all grains that may touch grain `i`, including itself.
   template <class Visitor>
   void each_near(std::int32_t i, const Visitor& visit) const {
     const Vec3& p = particles_.motion[i].position;
@@ -310,7 +310,7 @@ class PlanCells {
   std::vector<std::vector<std::int32_t>> cells_;
 };
 
-/// The grains of the largest body in plan; all of them, where none has half of them.
+/// The grains of the largest body in plan; all grains if no body has half of them.
 std::vector<std::int32_t> largest_body(const Particles& particles, double mean_radius) {
   const PlanCells cells(particles, mean_radius);
   std::vector<char> belongs(particles.count(), 0);

@@ -7,20 +7,20 @@
 
 namespace pastefit {
 
-/// Surface of a heap on the horizontal table z = 0, as heights over a square grid.
+/// Surface of a heap on the horizontal table z = 0, as heights on a square grid.
 ///
-/// The upper envelope of the spheres is closed by a ball of twice the mean radius: the pits between grains, into which
-/// no ruler of the laboratory would dip because paste fills them, are bridged; the tops of grains stay where they are.
+/// The upper envelope of the spheres is closed by a ball of twice the mean radius: pits between grains, which paste
+/// would fill, are bridged; the tops of grains are unchanged.
 class HeightField {
  public:
-  /// Shapes: (2 half_width/spacing + 1)^2 points about (x, y), spacing a quarter of `mean_radius` [m]. Grains outside
-  /// are ignored.
+  /// Shapes: (2 half_width/spacing + 1)^2 points about (x, y); spacing is a quarter of `mean_radius` [m]. Grains
+  /// outside are ignored.
   HeightField(const Particles& particles, double mean_radius, double half_width, double x = 0, double y = 0);
 
   double at(int ix, int iy) const { return height_[iy * n_ + ix]; }
   int points() const { return n_; }
   double spacing() const { return spacing_; }
-  /// From the middle of the field.
+  /// From the centre of the field.
   double coordinate(int i) const {
     const int middle = n_ / 2;
     return (i - middle) * spacing_;
@@ -32,14 +32,14 @@ class HeightField {
   std::vector<double> height_;
 };
 
-/// Highest point of any grain [m]. What EN 12350-2 reads.
+/// Highest point of any grain [m], as in EN 12350-2.
 double highest_point(const Particles& particles);
 
-/// What stays where it is once a heap rests [m]: its highest point, the mean height of its grains, and their mean
-/// distance from the axis.
+/// Lengths that no longer change when a heap is at rest [m]: its highest point, the mean height of its grains, and
+/// their mean distance from the axis.
 std::vector<double> rest_measure_of_heap(const Particles& particles);
 
-/// Where a flat-ended probe of this diameter is let down on a heap [m].
+/// A flat-ended probe of this diameter on a heap [m].
 struct Disc {
   double x = 0, y = 0;
   double diameter = 0;
@@ -48,24 +48,25 @@ struct Disc {
 /// Mean of the closed surface over a disc [m].
 double mean_height(const Particles& particles, double mean_radius, const Disc& disc);
 
-/// Slope along x of the plane fitted to the closed surface over a disc; positive where it rises with x.
+/// Slope along x of the plane fitted to the closed surface over a disc; positive if it rises with x.
 double slope_along_x(const Particles& particles, double mean_radius, const Disc& disc);
 
-/// Angle of repose of a heap on the table [rad]: that of the straight line through its flank between these shares of
-/// its height. Nothing if the heap is too low or too small to have such a flank.
+/// Angle of repose of a heap on the table [rad]: slope of the straight line through its flank between these shares of
+/// its height. Empty if the heap is too low or too small for such a flank.
 ///
-/// About the vertical through the grains' centre of mass, the heap's radius at a height z is the mean over 48
-/// directions of how far the closed surface reaches at z or above; its height is the mean of the closed surface over a
-/// disc of five mean radii about that axis. The line is the least squares fit of the radius over levels half a mean
-/// radius apart. Requirement: 0 <= lower < upper <= 1.
+/// The axis is the vertical through the grains' centre of mass. The radius at a height z is the mean over 48 directions
+/// of the farthest point of the closed surface at z or above; the height is the mean of the closed surface over a disc
+/// of five mean radii about the axis. The line is a least squares fit of the radius over levels half a mean radius
+/// apart.
+/// Requirement: 0 <= lower < upper <= 1.
 std::optional<double> flank_angle(const Particles& particles, double mean_radius, double lower, double upper);
 
-/// Widths in plan of the heap, the connected body that has at least half of the grains [m]; those that lie apart from
-/// it by more than one mean radius do not belong to it. Where no body has so many the grains have scattered, and all of
-/// them count: what flows farther is never read as narrower. What a person measures with a tape on a flow table.
+/// Widths of the heap in plan [m], as a tape measures them on a flow table. The heap is the connected body with at
+/// least half of the grains; grains more than one mean radius away from it do not count. If there is no such body the
+/// grains have scattered and all count, so that a heap that flows farther is never read as narrower.
 struct Widths {
-  double mean = 0;        ///< over 24 directions, evenly about the axis
-  double orthogonal = 0;  ///< mean of those along x and y, as the standards have it
+  double mean = 0;        ///< over 24 directions, evenly spaced
+  double orthogonal = 0;  ///< mean of the widths along x and y, as in the standards
 };
 Widths widths(const Particles& particles, double mean_radius);
 

@@ -69,7 +69,7 @@ double plateau_width(const Outline& outline) {
 }
 
 double rms_difference(const Outline& outline, const std::vector<OutlinePoint>& measured) {
-  constexpr int kPoints = 500;  // a millimetre on a wide heap; both curves are straight between points
+  constexpr int kPoints = 500;  // a millimetre on a wide heap; both curves are linear in between
   const double from = measured.front()[0], width = measured.back()[0] - from;
   double squares = 0;
   std::size_t k = 0;

@@ -8,14 +8,14 @@
 
 namespace pastefit {
 
-/// One reading of a test. The name carries test step and unit, e.g. "step1.height_mm";
-/// it is the key in laboratory files, results and residuals alike, so the value is in the unit the name says.
+/// One reading of a test. The name contains test step and unit, e.g. "step1.height_mm"; it is the key in laboratory
+/// files, results and residuals, and gives the unit of the value.
 struct Reading {
   std::string name;
   double value = 0;
 };
 
-/// Readings in the order in which they were taken.
+/// Readings in the order of measurement.
 class Readings {
  public:
   void set(std::string_view name, double value);
@@ -24,10 +24,10 @@ class Readings {
 
  private:
   std::vector<Reading> readings_;
-  std::unordered_map<std::string, std::size_t> places_;  ///< in `readings_`, by name
+  std::unordered_map<std::string, std::size_t> places_;  ///< index in `readings_`, by name
 };
 
-/// The mean of each reading over several runs. One that some run lacks has none.
+/// Mean of each reading over several runs; a reading that is missing in a run is omitted.
 Readings mean_of(const std::vector<Readings>& runs);
 
 }  // namespace pastefit

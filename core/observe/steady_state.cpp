@@ -23,7 +23,7 @@ double squares_about_mean(std::span<const double> values) {
   return sum;
 }
 
-/// Means of so many values each, from the end backwards; what is left over at the start is dropped.
+/// Means of blocks of this length, counted from the end; the remainder at the start is dropped.
 std::vector<double> block_means(std::span<const double> values, std::size_t length) {
   std::vector<double> means;
   const std::size_t blocks = values.size() / length, left_over = values.size() - blocks * length;
@@ -36,7 +36,7 @@ double error_of_mean(std::span<const double> values) {
   return std::sqrt(squares_about_mean(values) / (n * (n - 1)));
 }
 
-/// The batch at which the mean of the rest is known best.
+/// The cut that minimises the error of the mean of the rest.
 std::size_t best_cut(const std::vector<double>& batches) {
   std::size_t best = 0;
   double smallest = INFINITY;

@@ -1,5 +1,5 @@
 // Included once by each of kernels_{sse2,avx2,avx512}.cpp, which name the instruction set and the pack's width.
-// Everything here lives in that namespace or is inlined: see core/laws/pack.h.
+// Everything here is in that namespace or is inlined: see core/laws/pack.h.
 
 #include <utility>
 
@@ -19,7 +19,7 @@ constexpr int kWidth = PASTEFIT_WIDTH, kHalf = kWidth / 2;
 using Real = Singles<kWidth>;
 using Vector = BasicVec3<Real>;
 
-/// Rows of the lanes' grains.
+/// Memory rows of the lanes' grains.
 class Lanes {
  public:
   PASTEFIT_INLINE explicit Lanes(const std::int32_t* grain) {
@@ -36,16 +36,16 @@ class Lanes {
   using Integers = LaneTypes<float, kWidth>::Mask;
   static constexpr int kRow = sizeof(Load);
   static_assert(sizeof(Motion) == 2 * kRow);
-  /// Read again wherever it is needed: a compiler that takes them all into registers has too few, and computes and
-  /// stores each of them (5 % of a slump).
+  /// Read again at each use: a compiler that keeps all offsets in registers runs out of them, and computes and stores
+  /// each (5 % of a slump).
   PASTEFIT_INLINE std::uint64_t offset(int lane) const {
     return static_cast<const volatile std::uint32_t&>(offset_[lane]);
   }
-  alignas(4 * kWidth) std::uint32_t offset_[kWidth];  ///< in the list of loads, of up to 67 million grains [bytes]
+  alignas(4 * kWidth) std::uint32_t offset_[kWidth];  ///< in the array of loads, for up to 67 million grains [bytes]
 };
 
-/// Where the lanes' pairs are to each other. Places are doubles and so are their differences, which are rounded then;
-/// d = r - s, small beside both, is (r^2 - s^2)/(r + s) of the exact squares.
+/// Relative positions of the lanes' pairs. Positions and their differences are doubles; the differences are then
+/// rounded. The overlap d = r - s is small beside r and s, and is computed from exact squares as (r^2 - s^2)/(r + s).
 struct Pairing {
   Vector between;  ///< from centre to centre
   Real distance, inverse_distance, overlap;
@@ -65,7 +65,7 @@ PASTEFIT_INLINE Pairing pairing(const KernelTask& task, const Lanes& i, const La
     between[half] = task.domain.shortest(BasicVec3<Half>{columns[0], columns[1], columns[2]});
     reach[half] = columns[3];
     square[half] = dot(between[half], between[half]);
-    beyond[half] = reach[half] * reach[half] - square[half];  // exactly 0 where they just touch
+    beyond[half] = reach[half] * reach[half] - square[half];  // exactly 0 at touch
   }
   Pairing p;
   p.between = {narrow(between[0].x, between[1].x), narrow(between[0].y, between[1].y),
@@ -78,7 +78,7 @@ PASTEFIT_INLINE Pairing pairing(const KernelTask& task, const Lanes& i, const La
   return p;
 }
 
-/// A vector and the number beside it.
+/// A vector and the number stored next to it.
 struct Quad {
   Vector vector;
   Real beside;
@@ -105,8 +105,8 @@ PASTEFIT_INLINE void store(float (&rows)[3][kBatch], int lane, const Vector& v) 
   v.z.store(rows[2] + lane);
 }
 
-/// Adds to the loads of the pairs, one pair after the other, in eight of the first grains and then in those they meet:
-/// two lanes may name the same grain, and the order of the sums is part of the contract of determinism.
+/// Adds to the loads of the pairs, one pair after the other, for eight first grains and then for their partners: two
+/// lanes may have the same grain, and the order of the sums is part of the determinism contract.
 PASTEFIT_INLINE void add_loads(const KernelTask& task, const Lanes& i, const Lanes& j, const Vector& force,
                                Real damping, const Vector& torque_i, const Vector& torque_j, Real stiffness) {
   Columns<kWidth> on_i{{force.x, force.y, force.z, damping}, {torque_i.x, torque_i.y, torque_i.z, stiffness}};
@@ -122,7 +122,7 @@ PASTEFIT_INLINE void add_loads(const KernelTask& task, const Lanes& i, const Lan
   }
 }
 
-/// The energies of a kernel's contacts, in the lanes of `EnergySums`, kept in registers until all are counted.
+/// Sums the energies of a kernel's contacts in the lanes of `EnergySums`, in registers until the end.
 class Tally {
  public:
   PASTEFIT_INLINE void count(EnergySums::Kind kind, int lane, Real value) {
@@ -154,7 +154,7 @@ class Tally {
   Doubles<kHalf> sum_[EnergySums::kinds][EnergySums::kLanes / kHalf];
 };
 
-/// What a batch remembers, in and out; roll only where the rolling law has history.
+/// Reads the history of a batch; roll only if the rolling law has one.
 template <class Rolling>
 PASTEFIT_INLINE ContactHistory<Real> recall(const ContactBatch& c, int lane) {
   ContactHistory<Real> history;
@@ -177,8 +177,8 @@ PASTEFIT_INLINE void remember(ContactBatch& c, int lane, const ContactHistory<Re
   if constexpr (Attraction::present || Normal::yields) history.bond.store(c.bond + lane);
 }
 
-/// A pair's kinematics, and the levers of what acts across the normal: to the middle of the overlap, and where liquid
-/// is viscous to the middle of a gap.
+/// Kinematics of a pair, and lever arms of tangential forces: to the middle of the overlap and, in a viscous liquid, to
+/// the middle of a gap.
 struct Encounter {
   ContactKinematics<Real> kinematics;
   Real lever_a, lever_b;
@@ -225,7 +225,7 @@ PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const ConstantsOf<Real
   add_loads(task, i, j, force, contact_force.damping, torque_a, torque_b, contact_force.stiffness);
 }
 
-/// Pairs that do not touch: attraction along the line of centres.
+/// Pairs without contact: attraction along the line of centres.
 template <class Attraction, class Batch>
 PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const ConstantsOf<Real>& pair, Real scale, const Lanes& i,
                                    const Lanes& j, const Pairing& p, Batch& c, int lane, Tally& tally) {
@@ -238,13 +238,12 @@ PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const ConstantsOf<Rea
   if (task.energies != Energies::none) tally.count(EnergySums::bridges, lane, spent);
   if (task.energies == Energies::all)
     tally.count(EnergySums::stored, lane, -alive * Attraction::work(pair, smaller(overlap, zero), scale));
-  // Written like the normal of a contact times the pull: the bits do not depend on which of the two a pair is taken
-  // for.
+  // Same expression as the normal of a contact times the force: the bits do not depend on the list of the pair.
   const Vector force = pull.force * (p.inverse_distance * p.between), none{zero, zero, zero};
   add_loads(task, i, j, force, zero, none, none, pull.slope);
 }
 
-/// Pairs that do not touch, of a viscous liquid: lubrication besides. They have no other dampers, and remember no more.
+/// Pairs without contact in a viscous liquid: also lubrication, which is their only damper and history.
 template <class Attraction>
 PASTEFIT_INLINE void lubricate_pairs(const KernelTask& task, const ConstantsOf<Real>& pair, Real dt, const Lanes& i,
                                      const Lanes& j, const Pairing& p, ContactBatch& c, int lane, Tally& tally) {
@@ -285,8 +284,8 @@ PASTEFIT_INLINE void lubricate_pairs(const KernelTask& task, const ConstantsOf<R
   add_loads(task, i, j, force, contact_force.damping, lever_a * turning, lever_b * turning, pull.slope);
 }
 
-/// Whether a pair touches, or did so at the last step and has yet to forget it. Where none does, a contact exerts
-/// nothing and has nothing to remember.
+/// True if a pair of the lanes is in contact, or was so at the last step and must reset its history. Otherwise contacts
+/// have neither force nor history.
 PASTEFIT_INLINE bool some_touch(const Pairing& p, const ContactBatch& c, int lane) {
   return any(p.overlap > Real(0.0)) || any(Real::load(c.sqrt_contact_radius + lane) > Real(0.0));
 }
@@ -299,8 +298,8 @@ PASTEFIT_INLINE void fetch(const ContactBatch* batch) {
     __builtin_prefetch(reinterpret_cast<const char*>(batch) + line, 1);
 }
 
-/// The second grains of a batch lie scattered; the first ones are those of the batch before, or next to them. Of pairs
-/// that may touch mostly the places are looked at.
+/// Second grains of a batch are scattered in memory; the first ones are those of the batch before, or next to them.
+/// Pairs that only may touch mostly need positions alone.
 PASTEFIT_INLINE void fetch_grains(const KernelTask& task, const ContactBatch& batch, bool whole) {
   for (const std::int32_t j : batch.j) {
     __builtin_prefetch(task.motion + j);
@@ -308,7 +307,7 @@ PASTEFIT_INLINE void fetch_grains(const KernelTask& task, const ContactBatch& ba
   }
 }
 
-/// Batches that the kernel soon comes to, and their grains.
+/// Prefetches the next batches and their grains.
 PASTEFIT_INLINE void fetch_ahead(const KernelTask& task, std::int32_t k) {
   fetch(task.contacts + k + kAhead);
   const std::int32_t soon = k + kGrainsAhead;
@@ -399,13 +398,13 @@ void wall_kernel(const KernelTask& task) {
 
 namespace {
 
-/// Kernels of all combinations of laws that go together, in the order of `combination`; of others none.
+/// Kernels of all valid combinations of laws, in the order of `combination`; null for the others.
 template <std::size_t at>
 struct LawTriple {
   using Normal = Law<NormalLaws, at / (Attractions::size * RollingLaws::size)>;
   using Attraction = Law<Attractions, at / RollingLaws::size % Attractions::size>;
   using Rolling = Law<RollingLaws, at % RollingLaws::size>;
-  /// Liquid is viscous where there is a bridge.
+  /// A viscous liquid needs a bridge.
   template <bool viscous>
   static constexpr bool is_compiled = go_together(Normal{}, Attraction{}) && (Attraction::present || !viscous);
 

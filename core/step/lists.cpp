@@ -14,8 +14,8 @@ constexpr double kStepsPerSelection = 18;
 constexpr double kSmallestBound = 0.02;  // of the mean radius
 constexpr double kLargestBound = 0.2;
 constexpr double kNearlyUsed = 0.6;      // of a displacement bound
-constexpr double kRoundedUp = 1 + 1e-6;  // a float is not below it
-constexpr float kLeastShare = 0.5;  // of the displacement bound a grain would be given that its skin must have room for
+constexpr double kRoundedUp = 1 + 1e-6;  // a float is not less than the double
+constexpr float kLeastShare = 0.5;  // least share of its displacement bound for which a grain needs room in the skin
 
 }  // namespace
 
@@ -54,7 +54,7 @@ void Lists::check_state() const {
   for (const DisplacementBound& bound : bounds_.bounds)
     demand(is_in_laboratory(bound.from), "a place is not in the laboratory");
   for (const Listed& listed : listed_) demand(is_in_laboratory(listed.at), "a place is not in the laboratory");
-  if (!valid_) return;  // the rest is made anew
+  if (!valid_) return;  // the rest is rebuilt
   const auto grains = static_cast<std::size_t>(world_.particles.count());
   demand(bounds_.bounds.size() == grains && bounds_.own.size() == grains && listed_.size() == grains &&
              exceeded_.size() == world_.pairs.blocks.size(),
@@ -67,15 +67,15 @@ void Lists::check_state() const {
   for (const char exceeded : exceeded_) demand(exceeded == 0 || exceeded == 1, "a yes or no is neither");
 }
 
-/// Prepares to choose from the candidates as they are; false if that would not do.
+/// Prepares a selection from the present candidates; false if they must be listed anew.
 bool Lists::goes_on(double duration) {
   const Timed timed(clock_, StageClock::choice);
   take_along();
   return give_displacement_bounds(duration);
 }
 
-/// Blocks that would stray soon are chosen for together with those that have: every one of them costs its neighbour
-/// too.
+/// Blocks in which a grain will soon exceed its bound are selected together with those due, because each of them also
+/// costs its neighbour.
 void Lists::take_along() {
   const std::vector<Block>& blocks = world_.pairs.blocks;
   const auto nearly = [&](std::int32_t i) {
@@ -131,7 +131,7 @@ bool Lists::give_displacement_bounds(double duration) {
       if (j < block.grains_end ? first : second) make_room(j, i);
     });
   });
-  // Two grains of a candidate may each use half of its skin.
+  // Each grain of a candidate pair may use half of the skin.
   std::vector<char> enough(blocks, true);
   pool_.each(blocks, [&](int b, int) {
     if (!exceeded_[b]) return;
@@ -146,7 +146,7 @@ bool Lists::give_displacement_bounds(double duration) {
   return std::find(enough.begin(), enough.end(), false) == enough.end();
 }
 
-/// A grain of a block that keeps its bounds is on its way already, and may turn back.
+/// A grain of a block that keeps its bounds has already moved, and may move back.
 void Lists::note_ways() {
   bounds_.way.resize(bounds_.bounds.size());
   pool_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {

@@ -8,37 +8,44 @@
 
 namespace pastefit {
 
-/// Keeps the lists of a world true while its grains and walls move. Three kinds, each made from the one before when a
-/// bound on what may have moved is used up: all grains, sorted in space; candidates, made anew for the whole world when
-/// a grain has used up its share of the skin; contacts and bridges, chosen anew for the blocks of which a grain has
-/// left its displacement bound, and for their neighbours that share pairs with them.
+/// Keeps the lists of pairs valid while grains and walls move. Each list is made from the one before:
+///
+///     grains, sorted by cell                whole world, when a grain has used up its share (half)
+///       |  gap < reach + skin               of the skin
+///     neighbour list (candidates)
+///       |  gap < reach + both displacement bounds
+///     contacts, bridges, wall contacts      block by block, when a grain of the block has exceeded
+///                                           its displacement bound; its neighbour shares pairs
+///
+///     |<- radii ->|<- reach ->|<-------- skin -------->|    distance of the centres of a candidate
+///     |<- radii ->|<- reach ->|<- bounds ->|                of a contact or bridge
 class Lists {
  public:
-  /// `skin`: of the candidates [m].
+  /// `skin`: of the neighbour list [m].
   Lists(World& world, double skin, ThreadPool& pool, const KernelTable& kernels, StageClock* clock = nullptr);
 
-  /// To be called after the world was changed from outside.
+  /// Call after any change of the world from outside.
   void forget() { valid_ = false; }
 
-  /// Brings the lists up to date before a step of about `dt`; the walls have moved by up to `wall_way` since the last
-  /// call, and the fastest of them moves with `wall_speed`. Returns the deepest overlap among the pairs it looked at.
+  /// Updates the lists before a step of about `dt`. `wall_way`: bound on the displacement of the walls since the last
+  /// call; `wall_speed`: speed of the fastest wall. Returns the deepest overlap among the pairs that it checked.
   Deepest update(double dt, double wall_way, double wall_speed);
 
-  /// Where the lists allow the grains to be, one room each.
+  /// Displacement bounds of the grains.
   const DisplacementBound* bounds() const { return bounds_.bounds.data(); }
-  /// For `RunCheckpoint`. All else is scratch.
+  /// For `RunCheckpoint`. The rest is scratch.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(bounds_.bounds, bounds_.own, rounding_, listed_, exceeded_, valid_, wall_bound_, wall_way_);
   }
 
-  /// Throws `BadState` unless what was read is of the world as it is.
+  /// Throws `BadState` if the lists read do not belong to the world.
   void check_state() const;
 
-  /// Whether the lists are those of the world as it is, and not to be made anew before the next step.
+  /// True if the lists are valid, so that the next step need not rebuild them.
   bool hold() const { return valid_; }
 
-  /// A grain of the block is not in its room any more.
+  /// A grain of the block has exceeded its displacement bound.
   void note_exceeded(std::size_t block) { exceeded_[block] = true; }
 
  private:
@@ -49,7 +56,7 @@ class Lists {
   bool goes_on(double duration);
   void take_along();
   void list_candidates();
-  /// Gives the grains of the exceeded blocks a new displacement bound; false if one has too little of its skin left.
+  /// Sets displacement bounds in the blocks due; false if a grain has too little of its skin left.
   bool give_displacement_bounds(double duration);
   Deepest select_pairs();
   void note_ways();
@@ -62,12 +69,12 @@ class Lists {
   StageClock* clock_;
   std::vector<Selection> selections_;  ///< one for each member of the pool
   DisplacementBounds bounds_;
-  std::vector<Listed> listed_;  ///< where the grains were when the candidates were listed
-  double rounding_ = 0;         ///< by which those places are off at most [m]
-  std::vector<char> exceeded_;  ///< blocks to be chosen for anew (not bool: threads write side by side)
+  std::vector<Listed> listed_;  ///< positions of the grains when the candidates were listed
+  double rounding_ = 0;         ///< largest rounding error of those positions [m]
+  std::vector<char> exceeded_;  ///< blocks to be selected anew (not bool: threads write side by side)
   bool valid_ = false;
-  double wall_bound_ = 0;  ///< way of a wall that the selected contacts allow for [m]
-  double wall_way_ = 0;    ///< bound on what has been used of it [m]
+  double wall_bound_ = 0;  ///< displacement of a wall that the selected contacts allow [m]
+  double wall_way_ = 0;    ///< bound on the displacement since [m]
 };
 
 }  // namespace pastefit

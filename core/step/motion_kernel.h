@@ -1,5 +1,5 @@
 // Included once by each of kernels_{sse2,avx2,avx512}.cpp, which name the instruction set.
-// Everything here lives in that namespace or is inlined: see core/laws/pack.h.
+// Everything here is in that namespace or is inlined: see core/laws/pack.h.
 
 #include <algorithm>
 
@@ -10,14 +10,14 @@ namespace pastefit::PASTEFIT_ISA {
 
 namespace {
 
-/// A quarter or half of a grain's line as it lies in memory: a vector of three and a number beside it.
+/// A quarter or half of a grain's cache line as stored: a vector of three and the number next to it.
 using Row = Doubles<4>;
 
 PASTEFIT_INLINE Row row(double xyz, double beside) {
   return Row(Row::Lanes{xyz, xyz, xyz, beside});
 }
 
-/// The row's vector, and nothing beside it whatever was there.
+/// The row's vector, with zero next to it.
 PASTEFIT_INLINE Row vector_of(Row row) {
   return select(Row::Mask{-1, -1, -1, 0}, row, Row(0.0));
 }
@@ -39,14 +39,14 @@ PASTEFIT_INLINE double dot_of_vectors(Row a, Row b) {
   return product.v[2] + (product.v[1] + product.v[0]);
 }
 
-/// The squared lengths of two rows' vectors, side by side.
+/// Squared lengths of the vectors of two rows.
 PASTEFIT_INLINE Doubles<2> squares(Row a, Row b) {
   const Row x = a * a, y = b * b;
   const Doubles<2> first(__builtin_shufflevector(x.v, y.v, 0, 4)), second(__builtin_shufflevector(x.v, y.v, 1, 5));
   return first + second + Doubles<2>(__builtin_shufflevector(x.v, y.v, 2, 6));
 }
 
-/// The last grain that is faster than anything in a laboratory, or whose speed is not a number; -1 if none is.
+/// The last grain with an impossible speed or one that is not a number; -1 if none.
 std::int32_t find_runaway(const MoveTask& task) {
   std::int32_t found = -1;
   for (std::int32_t i = task.grains; i < task.grains_end; ++i) {
@@ -56,19 +56,19 @@ std::int32_t find_runaway(const MoveTask& task) {
   return found;
 }
 
-/// Of the stability of a step, what the springs of a grain take: half of (w dt)^2/2 for a pair of grains alike, with
-/// w^2 <= 2 sum(k)/m, where k counts a spin with 3.5 S_t, as for a pair alone, and not with 2.5 as among many. No more
-/// than half: a step is chosen so that there is always room for dampers.
+/// Share of the stability of a step that the springs of a grain use: half of (w dt)^2/2 for a pair of equal grains,
+/// with w^2 <= 2 sum(k)/m, where k counts a spin with 3.5 S_t, as for an isolated pair, instead of 2.5 as with many
+/// contacts. At most half: the step always leaves room for dampers.
 constexpr double kSpringShare = 0.5 * 2.5 / 3.5;
 constexpr double kLeastRoom = 0.5;
 
-/// Leapfrog: kicks velocities from the half step before to the half step after, and moves positions by a step.
+/// Leapfrog: advances velocities from the half step before to the half step after, and positions by one step.
 Moved move_grains(const MoveTask& task) {
   const Row fall(Row::Lanes{0, 0, task.kick * task.gravity, 0});
   const double kept = 1 / (1 + task.kick * task.drag);
   const Row kept_row = row(kept, 1), dt(task.dt), kick = row(task.kick, 1), kick_alone = row(task.kick, 0);
   const Row springs = row(0, kSpringShare * task.dt * task.dt), least = row(1, kLeastRoom);
-  Doubles<2> largest(0.0);  // square of the way since the lists were made (not looked at), of the speed
+  Doubles<2> largest(0.0);  // squares of the displacement since the lists were made (unused), and of the speed
   Doubles<2>::Mask within = largest <= Doubles<2>(0.0);
   Row stiffest(0.0);
   Moved moved;
@@ -80,7 +80,7 @@ Moved move_grains(const MoveTask& task) {
     const double inverse_mass = task.velocity[i].inverse_mass, inverse_inertia = task.velocity[i].inverse_inertia;
     const Row lightness(inverse_mass), load = widened(acting.torque);
 
-    // Beside the torque the stiffness, and beside the velocity its damping rate, the sum of c over the mass and over
+    // Next to the torque is the stiffness; next to the velocity the damping rate, the sum of c over the mass and over
     // the room that the springs leave.
     const Row stiffness = lightness * load;
     stiffest = larger(stiffness, stiffest);

@@ -1,5 +1,5 @@
 // Included once by each of kernels_{sse2,avx2,avx512}.cpp, which name the instruction set and the pack's width.
-// Everything here lives in that namespace or is inlined: see core/laws/pack.h.
+// Everything here is in that namespace or is inlined: see core/laws/pack.h.
 
 #include "core/laws/pack.h"
 #include "core/laws/transpose.h"
@@ -10,11 +10,11 @@ namespace pastefit::PASTEFIT_ISA {
 
 namespace {
 
-/// As many grains as there are numbers in two packs of doubles.
+/// Number of grains in two packs of doubles.
 constexpr int kFound = PASTEFIT_WIDTH;
 using Found = Doubles<kFound / 2>;
 
-/// Where they are, and beside it their radii.
+/// Their centres, and the radii stored next to them.
 struct Spheres {
   BasicVec3<Found> centre;
   Found radius;
@@ -34,7 +34,7 @@ PASTEFIT_INLINE void put(const BasicVec3<Found> (&halves)[2], float (&rows)[3][k
   narrow(halves[0].z, halves[1].z).store(rows[2] + lane);
 }
 
-/// Padding overlaps with no wall.
+/// Padding has no overlap with a wall.
 PASTEFIT_INLINE void pad(WallBatch& batch, int lane) {
   for (int c = 0; c < 3; ++c) batch.normal[c][lane] = batch.wall_velocity[c][lane] = 0;
   batch.overlap[lane] = -1;

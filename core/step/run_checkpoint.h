@@ -9,16 +9,16 @@
 
 namespace pastefit {
 
-/// How a test goes on after it was interrupted, in another process, with the same bits. Its apparatus does everything
-/// once more from the beginning, but a wait of its runners (`Runner::run`, `settle`, ...) that had ended takes no step:
-/// it leaves the world as it was left then. The wait in which the test was interrupted goes on in its midst. So an
-/// apparatus need not know of it, but for what its phases sum up step by step (`Runner::remember`).
+/// Resumes an interrupted test in another process, with the same bits. The apparatus repeats everything from the
+/// beginning, but a wait of its runners (`Runner::run`, `settle`, ...) that had ended takes no step: it restores the
+/// world as it was then. The interrupted wait continues where it was. So an apparatus need not know about checkpoints,
+/// except for what its phases sum up step by step (`Runner::remember`).
 ///
-/// One checkpoint serves one call of `simulate`. Requirements of a state: it is of the same test, options (but for
-/// `StepOptions::threads`), program and instruction set. Not covered: impacts, which take milliseconds.
+/// One checkpoint serves one call of `simulate`. Requirements: the state is of the same test, options (except
+/// `StepOptions::threads`), program and instruction set. Not covered: impacts and drop tests, which take milliseconds.
 class RunCheckpoint {
  public:
-  /// What a wait leaves behind, as bytes: what an apparatus can see, and what its runner needs to go on besides.
+  /// State after a wait, as bytes: what an apparatus can see, and what its runner needs besides.
   struct Wait {
     std::string seen, hidden;
     template <class Archive>
@@ -27,26 +27,26 @@ class RunCheckpoint {
     }
   };
 
-  /// `due`: whether a state is asked for, every `kStepsPerPulse` steps; `keep`: takes it. `state`: what `keep` was last
-  /// given by the run that is to go on; empty for one that starts. Errors: throws `BadState` (core/step/state.h) where
-  /// it is no state at all; the run that goes on does so where it is not one of this run.
+  /// `due`: true if a state is wanted, asked every `kStepsPerPulse` steps; `keep`: receives it. `state`: the last one
+  /// given to `keep` by the interrupted run; empty for a new run. Errors: throws `BadState` (core/step/state.h) if it
+  /// is no state at all; the resumed run does so if it is of another run.
   RunCheckpoint(std::function<bool()> due, std::function<void(const std::string& state)> keep,
                 std::string_view state = {});
 
-  /// Whether all of the state was told: otherwise it was not one of the run that is over.
+  /// True if all of the state was used: otherwise it was of another run.
   bool is_told() const { return !interrupted_; }
 
   // For the runner.
 
-  /// The next wait that had ended; none when all of them were told.
+  /// The next completed wait; null after the last.
   const Wait* next_ended();
-  /// The wait that was interrupted, once.
+  /// The interrupted wait, once.
   std::optional<Wait> take_interrupted();
-  /// A wait has ended; returns its number. Of the runner's one before (`before`) only what is seen is still needed.
+  /// Adds a completed wait; returns its number. Of the runner's previous wait (`before`) only the visible part is kept.
   std::size_t add(Wait ended, std::optional<std::size_t> before);
-  std::size_t told() const { return told_; }  ///< of those that had ended
+  std::size_t told() const { return told_; }  ///< number of completed waits used
   bool due() const { return due_(); }
-  /// Hands out the state of a run that is in the midst of this wait.
+  /// Passes on the state of a run during this wait.
   void keep(Wait under_way);
 
  private:

@@ -23,13 +23,13 @@ double largest_change(const std::vector<double>& before, const std::vector<doubl
   return largest;
 }
 
-// Unexplained energy over the energy put in beyond which a run is invalid. The energy balance of a slump at the default
-// step closes to a thousandth, all over the admissible box to half a hundredth; an unstable step creates many times
-// what was put in.
+// Unexplained energy over energy put in beyond which a run is invalid. At the default step the energy balance of a
+// slump closes to 0.1 %, and to 0.5 % in all of the admissible box; an unstable step creates many times the energy put
+// in.
 constexpr double kEnergyTolerance = 0.02;
 constexpr std::int64_t kStepsPerAudit = 8 * Stepper::kBalanceInterval;
 
-// Readings of a specimen that still changes by more than this in one window mean nothing.
+// A specimen that still changes by more than this in one window has no valid readings.
 constexpr double kStillFlowing = 0.1;  // of the mean radius
 
 }  // namespace
@@ -65,10 +65,10 @@ void Runner::recall(const RunCheckpoint::Wait& left) {
          "its steps are not those of this run");
 }
 
-/// A wait that goes on is as far as one of this length can be.
+/// Checks that the progress read is possible for a wait of this length.
 void Runner::check_progress(double longest_s, double cap_s) const {
   const double rounding = 1e-9 * (world_.time + longest_s);
-  const double windows = std::round(progress_.waited / options_.rest.window_s);  // more calm ones than that are none
+  const double windows = std::round(progress_.waited / options_.rest.window_s);  // an upper bound on calm windows
   demand(progress_.end <= world_.time + longest_s + rounding && progress_.cap == cap_s && progress_.waited >= 0 &&
              progress_.waited <= cap_s && progress_.calm >= 0 && progress_.calm <= windows,
          "the wait that was under way is another one");
@@ -98,7 +98,7 @@ PhaseLeft Runner::left(const Phase& phase) const {
   PhaseLeft left{now, now};
   if (progress_.cap > 0) {
     const RestCriterion& rest = options_.rest;
-    // Windows after this one: those that have to be calm, and, as `wait_for_rest` counts them, those that the cap has.
+    // Remaining windows: those that must be calm and, as `wait_for_rest` counts them, those within the time limit.
     left.least_s += rest.window_s * std::max(0, rest.windows - progress_.calm - 1);
     left.most_s += rest.window_s * std::max(0.0, std::ceil((progress_.cap - progress_.waited) / rest.window_s) - 1);
     left.least_s = std::min(left.least_s, left.most_s);
@@ -108,7 +108,7 @@ PhaseLeft Runner::left(const Phase& phase) const {
 }
 
 std::optional<Failure> Runner::tell(const Phase& phase) {
-  if (stepper_.has_failed()) return {};  // the next step says so; no run can go on from here
+  if (stepper_.has_failed()) return {};  // the next step reports it; such a state cannot be resumed
   if (options_.checkpoint && world_.step % kStepsPerPulse == 0 && options_.checkpoint->due())
     options_.checkpoint->keep(state());
   if (options_.pulse && world_.step % kStepsPerPulse == 0 &&
@@ -169,7 +169,7 @@ std::optional<Failure> Runner::advance(const Phase& phase) {
 }
 
 double Runner::energy_error() const {
-  // A heap at rest puts nothing in: falling a hundredth of a radius is the least that counts.
+  // A heap at rest has no energy input: count at least a fall of a hundredth of a radius.
   double mass = 0;
   for (std::int32_t i = 0; i < world_.particles.count(); ++i) mass += world_.particles.mass(i);
   const double least = 0.01 * mass * kGravity * world_.reference_radius;

@@ -6,15 +6,14 @@
 
 namespace pastefit {
 
-/// How long each stage of the steps took [s], for benches; asked for in `StepOptions`.
-/// Requirement: one thread.
+/// Time spent in each stage of the steps [s], for benchmarks; enabled in `StepOptions`. Requirement: one thread.
 struct StageClock {
   enum Stage { list, choice, pair, bridge, wall, move, stages };
   static constexpr std::array<std::string_view, stages> names{"list", "select", "pair", "bridge", "wall", "move"};
   std::array<double, stages> seconds{};
 };
 
-/// Adds to a stage the time from here to the end of the block; to none if there is no clock.
+/// Adds the time until the end of the scope to a stage; does nothing without a clock.
 class Timed {
  public:
   Timed(StageClock* clock, StageClock::Stage stage) : clock_(clock), stage_(stage) {

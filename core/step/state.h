@@ -10,26 +10,26 @@
 
 namespace pastefit {
 
-// A state as bytes, for the same program on the same kind of machine. What belongs to it is said once for both ways, by
-// a member `serialize(archive)`, which calls `archive(member, member, ...)`; numbers and plain structs are taken as
-// they lie in memory, vectors with their length. Each begins at a multiple of eight bytes: what lies there is one
-// number, or two of single precision, and never parts of some.
+// A state as bytes, for the same program on the same kind of machine. Its parts are listed once for writing and
+// reading, by a member `serialize(archive)`, which calls `archive(member, member, ...)`. Numbers and plain structs are
+// copied as they are in memory, vectors with their length. Each begins at a multiple of eight bytes, so that eight
+// bytes are one double or two floats, never parts of them.
 //
-// A state comes from a file, which may be anybody's. What is read is therefore checked: here lengths, and that numbers
-// are finite; in core/step/state_check.h what else the step relies on.
+// A state comes from a file, which is untrusted. All input is therefore checked: lengths and finiteness here, the other
+// assumptions of a step in core/step/state_check.h.
 
-/// Bytes that are no state of the run that reads them. What it has read by then is of no use.
+/// Bytes that are no state of the run that reads them. What was read before the error must be discarded.
 class BadState : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Throws `BadState` with this reason unless it holds.
+/// Throws `BadState` with this reason unless the condition is true.
 inline void demand(bool holds, const char* otherwise) {
   if (!holds) throw BadState(otherwise);
 }
 
-/// Bytes behind so many, up to a multiple of eight; zero.
+/// Number of zero bytes after this size, up to a multiple of eight.
 constexpr std::size_t state_padding(std::size_t size) {
   return (8 - size % 8) % 8;
 }
@@ -68,8 +68,8 @@ class StateWriter {
   std::string bytes_;
 };
 
-/// Reads it back into the same things in the same order.
-/// Errors: throws `BadState` for bytes that are too few, too many, or numbers that are not finite.
+/// Reads a state into the same objects in the same order. Errors: throws `BadState` for too few or too many bytes, and
+/// for numbers that are not finite.
 class StateReader {
  public:
   explicit StateReader(std::string_view bytes) : left_(bytes) {}
@@ -77,7 +77,7 @@ class StateReader {
   void operator()(Parts&... parts) {
     (take(parts), ...);
   }
-  /// To be called after the last part.
+  /// Call after the last part.
   void end() const { demand(left_.empty(), "it holds more than this run has"); }
 
  private:
@@ -94,7 +94,7 @@ class StateReader {
         part.resize(size);
         take_bytes(part.data(), size * each);
       } else {
-        part.clear();  // and grows as it is read: the length is not believed
+        part.clear();  // grown while reading: the length is untrusted
         for (; size > 0; --size) take(part.emplace_back());
       }
       if constexpr (std::is_floating_point_v<typename Part::value_type>)

@@ -11,11 +11,11 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kFarthest = 1e3;  // [m]; of a grain or a wall from the middle of the table
+constexpr double kFarthest = 1e3;  // [m]; of a grain or a wall from the centre of the table
 constexpr double kFastestWall = kRunawaySpeed;
-constexpr double kSizeChange = 0.01;  // of a grain by its apparatus, between two waits
+constexpr double kSizeChange = 0.01;  // largest change of a grain's size by its apparatus between two waits
 
-/// No number of a state is larger, in whatever unit; written so that one that is no number is not possible either.
+/// Limit for all numbers of a state, in any unit; written so that NaN fails too.
 bool is_possible(double value) {
   constexpr double kLargest = 1e15;
   return std::fabs(value) <= kLargest;
@@ -34,7 +34,7 @@ bool all_possible(const float (&values)[N]) {
   return std::all_of(values, values + N, [](float value) { return is_possible(value); });
 }
 
-/// The kind of a shape, and its lengths.
+/// The kind of a shape and its lengths.
 std::vector<double> sizes_of(const Shape& shape) {
   struct Sizes {
     std::vector<double> operator()(const Plane&) const { return {0}; }
@@ -57,7 +57,7 @@ std::array<Vec3, 3> places_of(const Shape& shape) {
   return std::visit(Places{}, shape);
 }
 
-/// The grains that a block's pairs may have, and the dummies behind all grains.
+/// Grains that may occur in a block's pairs, and the dummies behind all grains.
 struct Ends {
   std::int32_t begin, end, next_end, grains, all;
   bool is_dummy(std::int32_t i) const { return i >= grains && i < all; }
@@ -139,7 +139,7 @@ void Fixtures::check(const World& world) const {
     demand(identity < n && !seen[identity], "a grain stands twice in it");
     seen[identity] = true;
     demand(grain_of(particles, i) == grains_[identity], "a grain has another size or mass");
-    // Rounded anew in every step: an apparatus may have changed the size since.
+    // Rounded in every step: an apparatus may have changed the size since.
     const Motion& grain = particles.motion[i];
     demand(std::fabs(grain.rounded_radius - grain.radius) <= kSizeChange * grain.radius, "a grain has two sizes");
     demand_within(particles.motion[i].position, kFarthest, "a grain is not in the laboratory");

@@ -10,15 +10,15 @@ namespace pastefit {
 
 struct EnergySums;
 
-// What a step relies on, of a state that was read (`StateReader`): every index leads to a grain, every list has its
-// length, every number is finite and possible. Errors of all: throw `BadState`.
+// Checks what a step assumes of a state that was read (`StateReader`): every index is valid, every list has the right
+// length, every number is finite and possible. Errors: all throw `BadState`.
 
-/// What no wait changes of a world: its grains but for their motion, and the kinds and sizes of its walls.
+/// What waits never change: the grains except their motion, and kinds and sizes of the walls.
 class Fixtures {
  public:
   explicit Fixtures(const World& world);
 
-  /// The world has the same ones, and its grains and walls move as any could.
+  /// Checks that the world has the same grains and walls, and that their motion is possible.
   void check(const World& world) const;
 
  private:
@@ -29,20 +29,19 @@ class Fixtures {
   static Grain grain_of(const Particles& particles, std::size_t i);
 
   std::vector<Grain> grains_;               ///< by identity
-  std::vector<std::vector<double>> sizes_;  ///< of each wall, the first its kind
+  std::vector<std::vector<double>> sizes_;  ///< of each wall, preceded by its kind
 };
 
-/// Blocks of the world's grains with their lists. `listed`: they are those of the world as it is, and not to be made
-/// anew before the next step.
+/// Checks blocks of grains with their lists. `listed`: the lists are valid, and are not rebuilt before the next step.
 void check_pairs(const World& world, bool listed);
 
-/// Whether a grain can be there [m].
+/// True if a grain can be at this place [m].
 bool is_in_laboratory(const float (&place)[3]);
 
-/// Whether every one of the sums is an energy that there can be.
+/// True if all sums are possible energies.
 bool are_possible(const EnergySums& energies);
 
-/// Whether every point of a curve is.
+/// True if all points of a curve are finite.
 bool is_finite(const std::vector<CurvePoint>& points);
 
 }  // namespace pastefit

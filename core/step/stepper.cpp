@@ -11,11 +11,11 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kSmallestShare = 1e-4;  // of the first step; a healthy run stays within a factor of ten
-constexpr int kGrainsInCache = 4000;     // with their contacts some 300 bytes each: a megabyte
+constexpr double kSmallestShare = 1e-4;  // of the first step; normal runs stay within a factor of ten
+constexpr int kGrainsInCache = 4000;     // with contacts about 300 bytes each: one megabyte
 
 double speed_of(const Wall& wall) {
-  // The farthest point of a turning wall is not known here; walls that turn are plates of at most a few metres.
+  // The farthest point of a rotating wall is not known here; rotating walls are plates of at most a few metres.
   double reach = 0;
   if (const auto* plate = std::get_if<Plate>(&wall.shape))
     reach = norm(plate->centre - wall.pivot) + plate->half_length + plate->half_width;
@@ -48,8 +48,8 @@ Stepper::Stepper(World& world, const StepOptions& options)
 
 std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& drive) {
   if (auto problem = maintain_lists()) return problem;
-  // All forces before any grain moves: for the first step, which follows from them, and for the energy_balance. Else a
-  // block is moved while it is in a cache: a tenth faster in a bed too large for it.
+  // All forces before any motion: in the first step, which follows from them, and for the energy balance. Otherwise a
+  // block is moved while it is in the cache, which is a tenth faster in a bed too large for it.
   const bool first = dt_ == 0, forces_first = first || looks_at_energy();
   double dt = first ? 0 : next_step();
   compute_forces(forces_first ? std::nullopt : std::make_optional(dt));
@@ -110,7 +110,7 @@ std::optional<Failure> Stepper::maintain_lists() {
   return {};
 }
 
-/// What large grains press on small ones by grows with the ratio of their sizes.
+/// The pressure of large grains on small ones grows with the size ratio.
 std::string Stepper::remedy_of_sizes() const {
   constexpr double uneven = 2;
   double largest = 0;
@@ -122,8 +122,8 @@ std::string Stepper::remedy_of_sizes() const {
          " times the smallest";
 }
 
-/// Follows, but for the first one, from the stiffness and the speeds of the step before: they are known from moving the
-/// grains, and safety has room for it.
+/// Except in the first step, uses stiffness and speeds of the step before, which moving the grains gave; safety covers
+/// the difference.
 double Stepper::next_step() {
   const double advised =
       time_step_.next(advised_step(world_, {smallest_radius_, smallest_mass_, fastest_, stiffest_}, options_));
@@ -188,7 +188,7 @@ void Stepper::move_block(int b, double dt) {
   if (moved_[b].exceeded) lists_.note_exceeded(b);
 }
 
-/// What the moved grains of all blocks have in common; the dummies' loads are used up like theirs.
+/// Combines the results of all moved blocks, and clears the loads of the dummies.
 void Stepper::note_moved() {
   Particles& particles = world_.particles;
   stiffest_ = 0;

@@ -12,49 +12,56 @@
 
 namespace pastefit {
 
-/// Carries a world through time: lists, forces, integration, step size, failures.
+/// Advances a world in time: lists, step size, forces, motion, failures.
 ///
-/// Leapfrog: velocities live half a step before positions; the first step is a half kick. Work that is not needed in
-/// every step is done when a bound on what can have moved is used up: contacts are selected from the candidates, and
-/// the candidates listed anew.
+///     lists     sort -> neighbour list -> contacts, bridges     only where no longer valid (lists.h)
+///     step      dt from stiffness, impacts, bridges, liquid     (time_step.h)
+///     forces    pairs, bridges, walls of a block      \        a block moves as soon as its forces
+///     motion    v(n-1/2) -> v(n+1/2), x(n) -> x(n+1)  /        are complete
+///     walls     drive sets velocities, energy balance, walls move
+///
+///         x(n-1)           x(n)           x(n+1)
+///     -----o----------------o----------------o-----> time
+///                v(n-1/2)         v(n+1/2)
+///
+/// Leapfrog: velocities are half a step before positions; the first step is a half kick.
 class Stepper {
  public:
   Stepper(World& world, const StepOptions& options);
 
-  /// One time step. `drive` sets the walls' velocities for it, knowing the loads on them and the step; of the grains it
-  /// knows nothing: they may have been moved by then.
-  /// Returns nothing, or why the run cannot go on.
+  /// One time step. `drive` sets the walls' velocities; it may use the loads on them and the step, but not the grains,
+  /// which may have moved already. Returns the reason if the run cannot continue.
   std::optional<Failure> step(const std::function<void(World&, double)>& drive);
 
-  /// To be called after the world was changed from outside (walls or laws added or removed, grains moved).
+  /// Call after a change of the world from outside (walls or laws added or removed, grains moved).
   void forget_lists() { lists_.forget(); }
 
-  /// Takes the last wall away, and with it what its contacts and bridges hold: the work of whoever removes it.
+  /// Removes the last wall with the energy of its contacts and bridges, which counts as work of the wall.
   void take_away_last_wall();
 
-  /// To be called after grains and walls were lifted from outside, with the work that was done on the grains [J].
+  /// Call after grains and walls were lifted from outside, with the work done on the grains [J].
   void lifted(double work_j);
 
-  /// Whether the next step will fail for what this one did.
+  /// True if the next step will fail because of this one.
   bool has_failed() const { return runaway_ >= 0; }
   double time_step() const { return dt_; }
-  /// The smallest step the scene has asked for so far [s]: what a fixed step should have been.
+  /// Smallest computed step so far [s]: what a fixed step should have been.
   double smallest_advised_step() const { return time_step_.smallest(); }
   /// As of the last step that was a multiple of `kBalanceInterval`.
   const EnergyBalance& energy_balance() const { return energy_balance_; }
-  /// The run goes on from where another one ended, whose energy balance this is.
+  /// Continues the energy balance of a preceding run.
   void follow(const EnergyBalance& before);
   static constexpr std::int64_t kBalanceInterval = 32;
-  /// For `RunCheckpoint`: all but the world. The rest is scratch, or follows from the test.
+  /// For `RunCheckpoint`: all except the world. The rest is scratch, or follows from the test.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(lists_, dt_, fastest_, stiffest_, pierced_, runaway_, time_step_, energy_, energy_balance_, looked_);
   }
-  /// Throws `BadState` unless what was read is of the world as it is.
+  /// Throws `BadState` if the state read does not belong to the world.
   void check_state() const;
 
  private:
-  /// What a block does to a wall.
+  /// Loads of a block on a wall.
   struct WallShare {
     Vec3 force, torque;
     std::int32_t pierced = -1;  ///< a grain too deep in the wall
@@ -62,12 +69,12 @@ class Stepper {
 
   std::optional<Failure> maintain_lists();
   double next_step();
-  /// All forces; where `dt` is given, the grains of a block are moved by it as soon as their forces are complete.
+  /// Computes all forces; if `dt` is given, moves the grains of a block as soon as their forces are complete.
   void compute_forces(std::optional<double> dt);
   void act_on_pairs(int block);
   void act_on_walls(int block, int member);
   void act_on_wall(std::size_t wall, int block, Column<WallBatch>& batches);
-  /// `task` done for these contacts with a wall, of which `batches` say how they lie to it.
+  /// Runs `task` for these contacts with a wall; `batches` contain their geometry.
   void act_on(const Wall& wall, WallContacts& touching, Column<WallBatch>& batches, KernelTask task) const;
   KernelTask task(const PairConstants& pair, int block);
   void add_up_walls();
@@ -92,15 +99,15 @@ class Stepper {
   double fastest_ = 0;         ///< largest speed of a grain at the last step
   double stiffest_ = 0;        ///< largest stiffness over mass of a grain at the last step [1/s^2]
   std::int32_t pierced_ = -1;  ///< a grain too deep in a wall
-  std::int32_t runaway_ = -1;  ///< a grain beyond any speed, or with none that is a number
+  std::int32_t runaway_ = -1;  ///< a grain with an impossible speed, or one that is not a number
   double smallest_radius_ = 0, smallest_mass_ = 0;
   TimeStep time_step_;
   std::vector<EnergySums> energy_;               ///< of each block
-  std::vector<Column<WallBatch>> wall_batches_;  ///< of each member of the pool: of a block's contacts with a wall
+  std::vector<Column<WallBatch>> wall_batches_;  ///< by member of the pool: contacts of a block with a wall
   std::vector<WallShare> wall_shares_;           ///< of each block, for each wall
   std::vector<Moved> moved_;
   EnergyBalance energy_balance_;
-  bool looked_ = false;  ///< the energy balance has its start
+  bool looked_ = false;  ///< the start of the energy balance is set
 };
 
 }  // namespace pastefit

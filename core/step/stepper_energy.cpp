@@ -4,13 +4,13 @@
 #include "core/step/stepper.h"
 #include "core/world/nearest.h"
 
-// The energies that the balance of a step asks for.
+// The energies in the balance of a step.
 
 namespace pastefit {
 
 namespace {
 
-/// What the overlaps of all contacts hold [J].
+/// Elastic energy in the overlaps of all contacts [J].
 double elastic_energy(const World& world) {
   const auto held = [&](const PairConstants& pair, double sqrt_radius, double overlap) {
     return with_law(NormalLaws{}, acting(world.normal, pair), [&](auto law) {
@@ -41,7 +41,7 @@ double elastic_energy(const World& world) {
 
 }  // namespace
 
-/// Energies at the time of the positions: the velocities there are the means of the half steps around it.
+/// Energies at the time of the positions: velocities are the means of the half steps around it.
 void Stepper::look_at_energy(double dt) {
   const Particles& particles = world_.particles;
   const double half_kick = 0.25 * (dt_ + dt);

@@ -4,7 +4,7 @@
 
 #include "core/step/stepper.h"
 
-// What a step does with walls: the kernels on their contacts, the loads on them, and the work they do.
+// Walls in a step: kernels of their contacts, loads on them, and their work.
 
 namespace pastefit {
 
@@ -54,7 +54,7 @@ void Stepper::add_up_walls() {
   }
 }
 
-/// Where the wall is and how it moves there; a grain that is too deep in it, or -1.
+/// Computes the nearest point of the wall and its velocity there; returns a grain that is too deep in it, or -1.
 std::int32_t Stepper::find_wall(const Wall& wall, const WallContacts& touching, Column<WallBatch>& batches) const {
   batches.resize(std::max<std::size_t>(batches.size(), touching.contacts.batch_count()));
   const WallTask task{
@@ -65,7 +65,7 @@ std::int32_t Stepper::find_wall(const Wall& wall, const WallContacts& touching, 
       wall.shape);
 }
 
-/// What the kernel found, on the grains, and summed up on the wall.
+/// Adds the kernel's results to the grains, and sums them up on the wall.
 void Stepper::add_loads(const Wall& wall, const WallContacts& touching, const Column<WallBatch>& batches,
                         WallShare& sum) {
   for (std::int32_t k = 0; k < touching.count; ++k) {
@@ -79,7 +79,7 @@ void Stepper::add_loads(const Wall& wall, const WallContacts& touching, const Co
       load.torque[c] += batch.moment[c][lane];
     }
     load.damping += batch.damping[lane];
-    // A wall does not give way: half of what two equal grains would count in the bound 2 sum(k)/m.
+    // A wall does not move in response: half of what two equal grains count in the bound 2 sum(k)/m.
     load.stiffness += 0.5F * batch.stiffness[lane];
     sum.force += -force;
     const Motion& grain = world_.particles.motion[i];
@@ -98,8 +98,7 @@ void Stepper::account_walls(double dt) {
   }
 }
 
-/// What the contacts and bridges of a wall hold now [J]. They are asked in a step of no length, whose history is thrown
-/// away.
+/// Energy stored in the contacts and bridges of a wall [J], from a step of zero length whose history is discarded.
 double Stepper::held_by(std::size_t w) {
   const Wall& wall = world_.walls[w];
   std::vector<EnergySums> energy(1);

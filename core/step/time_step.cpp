@@ -10,13 +10,13 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kSlowest = 0.01;     // [m/s] speed that is always reckoned with
-constexpr double kLeastLoss = 0.004;  // share of a collision's energy beyond which losing less asks for no more steps
-constexpr double kFastCrossing = 10;  // over the speed a bridge can give
+constexpr double kSlowest = 0.01;     // [m/s] lowest speed assumed
+constexpr double kLeastLoss = 0.004;  // energy loss of a collision below which the number of steps no longer grows
+constexpr double kFastCrossing = 10;  // over the speed that a bridge can cause
 constexpr double kLevelsPerOctave = 16;
-constexpr double kNarrowGaps = 8;         // of a grain in a packing: neighbours that touch it, or nearly so
-constexpr double kLeastOverlap = 1e-3;    // over a radius, of grains that hardly attract each other: their weight
-constexpr double kMostViscousSteps = 20;  // for one that is taken without viscosity
+constexpr double kNarrowGaps = 8;         // neighbours of a grain in a packing at touch, or nearly so
+constexpr double kLeastOverlap = 1e-3;    // over a radius, of grains with little attraction: from their weight
+constexpr double kMostViscousSteps = 20;  // for one step without viscosity
 
 /// The level at or below a step. The last bits of pow differ between processors; levels do not.
 double level_below(double step) {

@@ -24,7 +24,7 @@ Cells::Cells(const Particles& particles, const Domain& domain, double size) {
     low.x = 0;
     high.x = domain.period;
   }
-  // A handful of stray grains must not make the grid huge: larger cells are slower, never wrong.
+  // A few stray grains must not make the grid huge: larger cells are slower, never wrong.
   const double most_cells = 64.0 * particles.count() + 1000;
   const Vec3 span = high - low;
   while ((span.x / size + 1) * (span.y / size + 1) * (span.z / size + 1) > most_cells) size *= 1.3;

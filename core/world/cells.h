@@ -9,10 +9,10 @@
 
 namespace pastefit {
 
-/// Cells of a box around the grains, at least `size` wide. Grains outside the box (none in a healthy run) are counted
-/// in its outermost cells. Cells are numbered along the shortest side of the box first, so that the cells that belong
-/// together are near each other in memory even in a wide bed; along x first where the domain repeats, so that cells
-/// across the seam are in one row.
+/// Cells of a box around the grains, at least `size` wide. Grains outside the box (none in a normal run) count in its
+/// outermost cells. Cells are numbered along the shortest side of the box first, so that neighbouring cells are near
+/// each other in memory even in a wide bed; along x first in a periodic domain, so that cells across the seam are in
+/// one row.
 class Cells {
  public:
   Cells(const Particles& particles, const Domain& domain, double size);
@@ -22,7 +22,7 @@ class Cells {
   std::int32_t rows() const { return n_[1]; }
   std::int32_t row_length() const { return n_[0]; }
   std::int32_t cell_of(const Vec3& point) const;
-  /// The last cell of a row is beside the first.
+  /// True if the last cell of a row is next to the first.
   bool rows_close() const { return rows_close_; }
 
  private:
@@ -38,7 +38,7 @@ class Cells {
 /// Grains by cell.
 struct Sorted {
   std::vector<std::int32_t> order;  ///< old index of the grain at each new place
-  std::vector<std::int32_t> first;  ///< first place of every cell, and the number of grains
+  std::vector<std::int32_t> first;  ///< first place of every cell, then the number of grains
 };
 Sorted sort_by_cell(const Particles& particles, const Cells& cells);
 

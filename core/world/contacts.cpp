@@ -7,10 +7,10 @@ namespace pastefit {
 
 namespace {
 
-/// Size of padding: the dummy pair sits on one spot, so it would form a bridge; this makes its energy vanish.
+/// Size of padding: the dummy pair has zero distance and would form a bridge; this makes its energy vanish.
 constexpr float kNoSize = 1e-12F;
 
-/// Rows of numbers in a batch, one behind the other from `sqrt_radius` on.
+/// Rows of numbers in a batch, in sequence from `sqrt_radius` on.
 constexpr int kRows = (sizeof(ContactBatch) - offsetof(ContactBatch, sqrt_radius)) / sizeof(float[kBatch]);
 
 }  // namespace
@@ -33,7 +33,7 @@ Contact new_contact(const Particles& particles, std::int32_t i, std::int32_t j) 
   return contact;
 }
 
-/// Row by row: what lies side by side is written side by side.
+/// Row by row, so that neighbouring values are written together.
 void ContactList::add(std::span<const ChosenPair> pairs, const ContactList& before, const ContactList& fresh,
                       std::int32_t dummy) {
   const ChosenPair kNone{0, NeighbourList::Pair(0), -1};

@@ -11,20 +11,20 @@
 
 namespace pastefit {
 
-/// A contact taken out of its batch; what it remembers is zero for a pair that has met only now.
+/// A contact copied out of its batch; its history is zero for a new pair.
 struct Contact {
   float sqrt_radius = 0, sqrt_mass = 1;
   float slip[3] = {}, roll[3] = {};
   float sqrt_contact_radius = 0, damper = 0, drag = 0, bond = 0;
 
-  /// The same seen from the other grain: vectors change their sign.
+  /// The same seen from the other grain: vectors change sign.
   Contact turned() const;
 };
 
-/// What padding is in a list.
+/// Padding of a list.
 Contact padding();
 
-/// Two grains that have met only now, or (i = j) a grain and a wall.
+/// A new pair of grains, or (i = j) of a grain and a wall.
 Contact new_contact(const Particles& particles, std::int32_t i, std::int32_t j);
 
 /// A list of batches that is filled pair by pair; it keeps its memory when cleared, so that a steady scene allocates
@@ -33,11 +33,11 @@ template <class Batch>
 class BatchList {
  public:
   Column<Batch> batches;
-  std::int32_t count = 0;  ///< pairs, the padding among them once it is there
+  std::int32_t count = 0;  ///< pairs, including padding once it is added
 
   void clear() { count = 0; }
-  /// Becomes these lists one after the other, all of them padded. Takes little more memory than they need, and gives up
-  /// first what is too short: lists are long, and there is one for each block.
+  /// Becomes the concatenation of these padded lists. Allocates little more than needed, and frees a buffer that is too
+  /// short first: lists are long, and each block has one.
   void join(std::initializer_list<const BatchList*> parts) {
     count = 0;
     for (const BatchList* part : parts) count += part->batch_count() * kBatch;
@@ -50,7 +50,7 @@ class BatchList {
     for (const BatchList* part : parts)
       batches.insert(batches.end(), part->batches.begin(), part->batches.begin() + part->batch_count());
   }
-  /// Without the batches that only keep memory.
+  /// Drops batches that only keep memory.
   template <class Archive>
   void serialize(Archive& archive) {
     batches.resize(static_cast<std::size_t>(batch_count()));
@@ -60,7 +60,7 @@ class BatchList {
   std::int32_t batch_count() const { return (count + kBatch - 1) / kBatch; }
 
  protected:
-  /// The batch of a further pair, which becomes pair `count - 1`.
+  /// The batch of one more pair, which becomes pair `count - 1`.
   Batch& next() {
     const auto batch = static_cast<std::size_t>(count++ / kBatch);
     if (batch == batches.capacity()) batches.reserve(batch + batch / 8 + 8);
@@ -69,22 +69,22 @@ class BatchList {
   }
 };
 
-/// A pair chosen for a list, and where what it remembers stands: at `place` of the list that kept it until now; among
-/// the new contacts at `-1 - place`.
+/// A pair selected for a list, and the place of its history: `place` in the list that contained it until now; new
+/// contacts have `-1 - place`.
 struct ChosenPair {
   std::int32_t i;
-  NeighbourList::Pair other;  ///< as it was kept until now
+  NeighbourList::Pair other;  ///< as stored until now
   std::int32_t place;
 };
 
-/// Contacts; those that touched when they were chosen first, then from `near` on those that may touch.
+/// Contacts: first those that touched at selection, then from `near` on those that may touch.
 class ContactList : public BatchList<ContactBatch> {
  public:
   std::int32_t near = 0;  ///< a multiple of kBatch, as `count` is of a padded list
 
   void add(std::int32_t i, std::int32_t j, const Contact& contact);
-  /// Adds the pairs, and padding behind them. Requirement: the list is padded. `fresh`: the new contacts, the first of
-  /// them for the padding.
+  /// Adds the pairs, and padding after them. Requirement: the list is padded. `fresh`: the new contacts, of which the
+  /// first is for the padding.
   void add(std::span<const ChosenPair> pairs, const ContactList& before, const ContactList& fresh, std::int32_t dummy);
   void pad(std::int32_t dummy);
   template <class Archive>
@@ -98,7 +98,7 @@ class ContactList : public BatchList<ContactBatch> {
   float sqrt_radius(std::int32_t k) const { return batches[k / kBatch].sqrt_radius[k % kBatch]; }
   float bond(std::int32_t k) const { return batches[k / kBatch].bond[k % kBatch]; }
   bool touched(std::int32_t k) const { return batches[k / kBatch].sqrt_contact_radius[k % kBatch] > 0; }
-  /// Whether it is more than two grains that have met only now.
+  /// True if it has a history.
   bool remembers(std::int32_t k) const { return touched(k) || bond(k) > 0; }
 };
 
@@ -111,7 +111,7 @@ class BridgeList : public BatchList<BridgeBatch> {
   float bond(std::int32_t k) const { return batches[k / kBatch].bond[k % kBatch]; }
 };
 
-// Inlined: every choice of pairs takes each contact out of its list and puts it into another.
+// Inlined: every selection copies each contact from one list to another.
 
 inline void ContactList::add(std::int32_t i, std::int32_t j, const Contact& contact) {
   const int lane = count % kBatch;

@@ -7,18 +7,18 @@
 
 namespace pastefit {
 
-/// The space that grains are in: all of it, or a slice of it that repeats along x, so that what leaves the slice on one
-/// side comes in on the other. The one place where the distance between two grains is computed.
+/// The space of the grains: unbounded, or a slice that is periodic along x, so that grains that leave at one side enter
+/// at the other. The only place where distances between grains are computed.
 ///
-/// Grains are put back into 0 <= x < period when they are sorted, and until then may be outside by as much as they have
-/// moved since. Walls are not put back: they have to look the same a period further on.
-/// Requirement: no two grains may act on each other across more than half a period.
+/// Grains are moved back into 0 <= x < period when they are sorted; in between they may be outside by their
+/// displacement. Walls are not moved back: they must look the same one period farther.
+/// Requirement: no two grains interact across more than half a period.
 struct Domain {
-  double period = 0;  ///< along x [m]; 0: nothing repeats, and nothing of it is computed
+  double period = 0;  ///< along x [m]; 0: not periodic, at no cost
 
   bool repeats() const { return period > 0; }
 
-  /// The vector from one place to the nearest image of another, of places less than one and a half periods apart [m].
+  /// Vector from one place to the nearest image of another, for places less than one and a half periods apart [m].
   template <class Real>
   PASTEFIT_INLINE BasicVec3<Real> minimum_image(const BasicVec3<Real>& from, const BasicVec3<Real>& to) const {
     return shortest(to - from);
@@ -32,7 +32,7 @@ struct Domain {
     return between;
   }
 
-  /// The image of a place that is in the slice.
+  /// Image of a place inside the slice.
   Vec3 put_back(const Vec3& place) const {
     if (!repeats()) return place;
     return {place.x - period * std::floor(place.x / period), place.y, place.z};

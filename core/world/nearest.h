@@ -8,8 +8,7 @@
 
 namespace pastefit {
 
-// One shape each: whoever asks for many grains visits the wall's shape once, and the answer is inlined. On packs as on
-// numbers.
+// One function per shape, inlined: a caller with many grains visits the wall's shape once. For packs and numbers.
 
 inline constexpr double kOnSurface =
     1e-12;  // [m]; closer than this the direction is taken from the shape, not from the point
@@ -78,7 +77,7 @@ PASTEFIT_INLINE BasicNearest<Real> nearest_on(const Ribs& ribs, const BasicVec3<
   return towards(way, {select(x > Real(0.0), Real(-1.0), Real(1.0)), Real(0.0), Real(0.0)});
 }
 
-/// True only if no point of the shape is within `range` of the point; cheaper than to look for the nearest one.
+/// True only if no point of the shape is within `range` of the point; cheaper than the nearest point.
 inline bool is_surely_beyond(const Plane& plane, const Vec3& p, double range) {
   return dot(p - plane.point, plane.normal) >= range;
 }

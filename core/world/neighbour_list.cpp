@@ -15,7 +15,7 @@ bool NeighbourList::is_of(std::int32_t grains) const {
   return ends_.empty() ? pairs_.empty() : ends_.front() >= 0 && ends_.back() == std::ssize(pairs_);
 }
 
-/// A grain's are written over by those of the next: mostly no loop.
+/// Writes 16 entries for a grain at once; the next grain overwrites the surplus. Mostly no inner loop.
 void NeighbourList::first_grains(std::int32_t first, std::vector<std::int32_t>& grains) const {
   constexpr std::size_t kAtOnce = 16;
   if (grains.size() < pairs_.size() + kAtOnce) grains.resize(pairs_.size() + pairs_.size() / 8 + kAtOnce);

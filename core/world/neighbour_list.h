@@ -10,14 +10,14 @@
 
 namespace pastefit {
 
-/// Pairs near enough that they may meet before the list is made again, of a run of grains: one grain after the other,
-/// so that a pair need not name its first one. 4 bytes a pair.
+/// Verlet list of a run of grains: pairs that may meet before the list is rebuilt. Sorted by the first grain, which a
+/// pair therefore does not store. 4 bytes a pair.
 class NeighbourList {
  public:
-  /// In which of its block's lists a pair is kept, in all of them in the order of the candidates.
+  /// List of its block that contains a pair; all are in the order of the candidates.
   enum Kept : std::uint32_t { nowhere, touching, near, bridge, kinds };
 
-  /// A pair's second grain, and where the pair is kept.
+  /// A pair's second grain, and the list that contains it.
   class Pair {
    public:
     explicit Pair(std::int32_t grain, Kept kept = nowhere)
@@ -34,9 +34,9 @@ class NeighbourList {
   };
 
   void clear();
-  /// A pair of the grain at hand.
+  /// Adds a pair of the current grain.
   void add(Pair pair) { pairs_.push_back(pair); }
-  /// Goes on to the next grain.
+  /// Moves on to the next grain.
   void end_grain() { ends_.push_back(static_cast<std::int32_t>(pairs_.size())); }
 
   /// Calls `visit(pair, i)` for all pairs; the run begins with grain `first`.
@@ -53,9 +53,9 @@ class NeighbourList {
     archive(ends_, pairs_);
   }
   std::span<Pair> pairs() { return pairs_; }
-  /// The first grain of every pair; there may be more of them behind.
+  /// First grain of every pair; the vector may be longer.
   void first_grains(std::int32_t first, std::vector<std::int32_t>& grains) const;
-  /// Whether they are of so many grains, as far as the lengths say.
+  /// True if the lengths fit this number of grains.
   bool is_of(std::int32_t grains) const;
 
  private:
@@ -72,39 +72,38 @@ class NeighbourList {
   std::vector<Pair> pairs_;
 };
 
-/// Spheres side by side, in single precision, and which grains they are. What lies behind the last one is read, not
-/// looked at.
+/// Spheres as columns in single precision, and their grains. Entries behind the last one are read, not used.
 struct SphereColumns {
-  static constexpr int kBeyond = 16;  ///< numbers behind it
+  static constexpr int kBeyond = 16;  ///< readable entries behind the last one
   const float *x, *y, *z, *radius;
   const std::int32_t* grain;
 };
 
-/// One of which the neighbours are asked for.
+/// A grain whose neighbours are wanted.
 struct VicinityTask {
   SphereColumns others;
   std::int32_t from, count;  ///< of the others
-  float place[3], radius;    ///< its own
+  float place[3], radius;    ///< of the grain
   float gap, skin;           ///< near: closer than r + r' + gap r r'/(r + r') + skin
   Domain domain;
-  std::int32_t* near;  ///< the grains found, and room for `kBeyond` behind them
+  std::int32_t* near;  ///< the grains found, with space for `kBeyond` behind them
 };
 
-/// Writes those that are near, in their order; returns how many.
+/// Writes the near grains, in their order; returns their number.
 using FindNear = std::int32_t (*)(const VicinityTask&);
 
-/// Finds the grains within reach of a grain among some that were gathered. It looks in single precision, from the
-/// middle of the grains' box, and a millionth of the box farther than it is asked to: it may find too many.
+/// Finds the neighbours of a grain among gathered grains. Works in single precision, relative to the centre of the
+/// grains' box, with a margin of a millionth of the box: it may find too many.
 class Vicinity {
  public:
-  /// `farthest`: gap between grains of one radius over that radius, for pairs as 2 R*; `skin` [m] besides.
+  /// `farthest`: gap over radius for equal grains, over 2 R* for others; plus `skin` [m].
   Vicinity(const Particles& particles, const Domain& domain, double farthest, double skin, FindNear find_near);
 
-  /// Begins anew with no grains.
+  /// Removes all grains.
   void clear() { count_ = 0; }
   /// Gathers the grains `begin` <= j < `end`.
   void gather(std::int32_t begin, std::int32_t end);
-  /// Calls `found(j)` for those that are near grain `i`, of the gathered ones without the first `from`.
+  /// Calls `found(j)` for the neighbours of grain `i` among the gathered grains from index `from` on.
   template <class Found>
   void find(std::int32_t i, std::int32_t from, const Found& found) {
     const std::int32_t count = find_near_(task(i, from));

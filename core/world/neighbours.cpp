@@ -10,7 +10,8 @@ namespace pastefit {
 
 namespace {
 
-constexpr std::int32_t kGrainsPerBlock = 600;  // at least; few are chosen for again because one of them has strayed
+constexpr std::int32_t kGrainsPerBlock =
+    600;  // at least; small, so that a single displaced grain causes the selection of few others
 
 double largest_of(const Particles& particles) {
   double largest = 0;
@@ -18,9 +19,9 @@ double largest_of(const Particles& particles) {
   return largest;
 }
 
-/// What the pairs of the blocks as they were remember, by the lower index of their grains: found again after the grains
-/// have been sorted. A block's lists are given up when the grains they belong to are done with, so that there are never
-/// two lists of the whole scene.
+/// History of the pairs of the old blocks, by the lower new index of their grains: used after the grains were sorted. A
+/// block's old lists are freed when the grains they belong to are done, so that there are never two lists of the whole
+/// scene.
 class Remembered {
  public:
   Remembered(std::vector<Block>& blocks, const std::vector<std::int32_t>& new_place)
@@ -51,7 +52,7 @@ class Remembered {
     for (Block& block : blocks) block.candidates = {};
   }
 
-  /// Gives up what belongs to pairs whose lower index is below `grain`.
+  /// Frees lists whose pairs all have a lower index below `grain`.
   void forget_before(std::int32_t grain) {
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       if (last_[b] >= grain) continue;
@@ -60,12 +61,12 @@ class Remembered {
     }
   }
 
-  /// To be called before the pairs of grain `i` are asked for.
+  /// Call before asking for the pairs of grain `i`.
   void turn_to(std::int32_t i) {
     for (std::int32_t p = first_[i]; p < first_[i + 1]; ++p) met_[known_[p].upper] = p;
   }
 
-  /// Puts the pair's memory into the block's lists, and returns into which of them.
+  /// Adds the pair's history to the block's lists; returns the list.
   NeighbourList::Kept recall(std::int32_t i, std::int32_t j, Block& block) const {
     const std::int32_t p = met_[j];
     if (p < first_[i] || p >= first_[i + 1]) return NeighbourList::nowhere;
@@ -88,11 +89,12 @@ class Remembered {
   std::vector<Block>& blocks_;
   std::vector<std::int32_t> last_;   ///< by block: the largest lower index among its pairs
   std::vector<std::int32_t> first_;  ///< by the lower grain
-  std::vector<std::int32_t> met_;    ///< by the upper grain: which it was of the lower one at hand, if it was
+  std::vector<std::int32_t>
+      met_;  ///< by the upper grain: index of its pair with the current lower grain, if it has one
   std::vector<Known> known_;
 };
 
-/// Hands the contacts with a wall over to the blocks in which their grains are now.
+/// Moves the contacts with a wall to the blocks that contain their grains now.
 void redistribute(const std::vector<Block>& old, std::size_t wall, const std::vector<std::int32_t>& new_place,
                   std::vector<Block>& blocks) {
   struct Known {
@@ -131,13 +133,13 @@ std::vector<Block> blocks_of(const Cells& cells, const std::vector<std::int32_t>
   return blocks;
 }
 
-/// Gathers half of the neighbourhood of a cell's grains besides those of the cell and the one after it: the cell before
-/// the first one of a closed row, and the three cells above it in each later row. Cells of a row are neighbours in
-/// memory: three are one range, across the seam two. A grain is always looked at by one before it.
+/// Gathers half of the neighbourhood of a cell besides itself and the next cell: the cell before the first one of a
+/// closed row, and the three cells above it in each later row. The cells of a row are contiguous in memory: three are
+/// one range, across the seam two. Each pair is found from its earlier grain.
 void gather_around(const Cells& cells, const std::vector<std::int32_t>& first, std::int32_t x, std::int32_t y,
                    std::int32_t z, Vicinity& vicinity) {
   const std::int32_t last = cells.row_length() - 1;
-  const bool across = cells.rows_close() && last > 1;  // the seam; in shorter rows all are beside each other
+  const bool across = cells.rows_close() && last > 1;  // the seam; in shorter rows all cells are neighbours
   const std::int32_t left = std::max(x - 1, 0), right = std::min(x + 1, last);
   const auto gather_row = [&](std::int32_t row_y, std::int32_t row_z) {
     if (row_y < 0 || row_y >= cells.rows() || row_z >= cells.layers()) return;
@@ -176,7 +178,7 @@ void rebuild(Particles& particles, const Domain& domain, Pairs& pairs, std::size
   for (std::size_t wall = 0; wall < walls; ++wall) redistribute(old, wall, new_place, pairs.blocks);
   Remembered remembered(old, new_place);
   Vicinity vicinity(particles, domain, farthest, skin, find_near);
-  NeighbourList listed;  // copied to the blocks, which take no more memory than they need
+  NeighbourList listed;  // copied to the blocks, which allocate no more than they need
   auto block = pairs.blocks.begin();
   std::int32_t cell = 0;
   for (std::int32_t z = 0; z < cells.layers(); ++z)

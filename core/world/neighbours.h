@@ -14,15 +14,19 @@ namespace pastefit {
 /// Contacts of a block's grains with one wall, in the order of the grains.
 struct WallContacts {
   ContactList contacts;
-  std::int32_t count = 0;  ///< of them, without padding
+  std::int32_t count = 0;  ///< without padding
   template <class Archive>
   void serialize(Archive& archive) {
     archive(contacts, count);
   }
 };
 
-/// A run of grains that are neighbours in space, with the pairs of which it holds the first grain. Their second grains
-/// lie in the same block or in the next: blocks of the same parity can be worked on at the same time.
+/// A run of grains that are neighbours in space, with the pairs whose first grain is among them. The second grains are
+/// in the same block or the next:
+///
+///     block 0    block 1    block 2    block 3        grains, sorted in space
+///     [....]-----[....]-----[....]-----[....]         pairs within a block and with the next
+///      even       odd        even       odd           even blocks in parallel, then the odd ones
 struct Block {
   std::int32_t grains = 0, grains_end = 0;
   NeighbourList candidates;
@@ -35,8 +39,8 @@ struct Block {
   }
 };
 
-/// What acts between grains, by how much work it takes: contacts in full, bridges by their distance only; and what may
-/// do so soon. The sums of a step are taken in the order of the blocks and their lists.
+/// All pairs that act or may act soon, by cost: contacts in full, bridges by distance only. The sums of a step are
+/// taken in the order of the blocks and their lists.
 struct Pairs {
   std::vector<Block> blocks;
   template <class Archive>
@@ -45,9 +49,9 @@ struct Pairs {
   }
 };
 
-/// Calls `work(block, member)` so that no two neighbouring blocks are worked on at the same time, and every block of
-/// odd number after both of its neighbours. One member alone goes to and fro, so that what two blocks share stays in a
-/// cache; sums have the same order.
+/// Calls `work(block, member)` so that no two neighbouring blocks run at the same time, and every odd block after both
+/// of its neighbours. A single thread alternates between them, so that data shared by two blocks stays in the cache;
+/// sums have the same order.
 template <class Work>
 void in_two_rounds(ThreadPool& pool, int blocks, const Work& work) {
   if (pool.size() == 1) {
@@ -61,8 +65,8 @@ void in_two_rounds(ThreadPool& pool, int blocks, const Work& work) {
     pool.each((blocks + 1 - first) / 2, [&](int task, int member) { work(2 * task + first, member); });
 }
 
-/// The same, and `finish(block, member)` for every block as soon as it and the one before it have been worked on: no
-/// pair touches its grains any more.
+/// The same, with `finish(block, member)` for every block as soon as it and the one before it are done: no pair acts on
+/// its grains any more.
 template <class Work, class Finish>
 void in_two_rounds(ThreadPool& pool, int blocks, const Work& work, const Finish& finish) {
   in_two_rounds(pool, blocks, [&](int block, int member) {
@@ -74,19 +78,19 @@ void in_two_rounds(ThreadPool& pool, int blocks, const Work& work, const Finish&
   });
 }
 
-/// How far beyond touching two grains of the reference radius can act on each other.
+/// Largest gaps at which two grains of the reference radius interact.
 struct AttractionReach {
-  double formation_gap = 0;  ///< a bridge may form within it [m]
-  double rupture_gap = 0;    ///< a living bridge acts within it [m]
-  double pull_off_gap = 0;   ///< grains that have touched may stay in contact within it [m]
+  double formation_gap = 0;  ///< a bridge may form up to this gap [m]
+  double rupture_gap = 0;    ///< a living bridge acts up to this gap [m]
+  double pull_off_gap = 0;   ///< grains that have touched may stay in contact up to this gap [m]
   double reference_radius = 1;
-  bool viscous = false;  ///< bridges are contacts: they feel velocities and remember dampers
+  bool viscous = false;  ///< bridges are contacts: they need velocities and have a history of dampers
 };
 
 /// Sorts the grains in space (cells of the largest interaction plus skin), divides them into blocks, and lists all
-/// pairs whose gap is below reach + skin. Contacts and bridges keep their memory; it is turned where a pair's order
-/// changes. Of the walls the first ones stay what they were, if their number is another one now. Where the domain
-/// repeats, grains are put back into it.
+/// pairs whose gap is below reach + skin. Contacts and bridges keep their history; it is reversed where the order of a
+/// pair changes. If the number of walls has changed, the first ones are assumed to be the same. In a periodic domain
+/// grains are moved back into it.
 void rebuild(Particles& particles, const Domain& domain, Pairs& pairs, std::size_t walls, const AttractionReach& reach,
              double skin, FindNear find_near);
 

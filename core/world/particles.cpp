@@ -7,7 +7,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kFarAway = 1e6;  // [m]; the dummy never comes near a grain
+constexpr double kFarAway = 1e6;  // [m]; dummies are never near a grain
 
 template <class T>
 void permute(std::vector<T>& values, const std::vector<std::int32_t>& order) {

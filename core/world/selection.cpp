@@ -18,14 +18,14 @@ double size_scale(double r1, double r2, double reference_radius) {
   return 2 * r1 * r2 / ((r1 + r2) * reference_radius);
 }
 
-/// Gap at which a contact is torn apart at the latest. It grows less than the size: with its cube root for JKR.
+/// Largest gap at which a contact separates. It grows less than the size: with its cube root for JKR.
 double longest_hold(double pull_off_gap, double size_scale) {
   return pull_off_gap * std::max(size_scale, 1.0);
 }
 
-constexpr std::size_t kTogether = sizeof(std::uint64_t);  // candidates; the far ones among them cost nothing
+constexpr std::size_t kTogether = sizeof(std::uint64_t);  // candidates tested at a time; distant ones cost nothing
 
-/// What a block's lists remember of a candidate, by where they keep it.
+/// History of a candidate, by the list that contains it.
 class Recollection {
  public:
   explicit Recollection(const Block& block) {
@@ -55,11 +55,11 @@ class Recollection {
   std::array<Row, NeighbourList::kinds> touched_, alive_;
 };
 
-/// Sorts the candidates into the lists they are chosen for. Without branches: which list it is cannot be predicted.
+/// Sorts the candidates into their lists. Without branches, because the list is unpredictable.
 void sort_into_lists(Block& block, bool viscous, Selection& chosen) {
   const std::span<NeighbourList::Pair> pairs = block.candidates.pairs();
   const Recollection recollection(block);
-  // The next of each list, as the candidates come, and how many are chosen for it.
+  // Next entry of each list, in the order of the candidates, and number of pairs selected for it.
   std::array<std::int32_t, NeighbourList::kinds> next{};
   next[NeighbourList::near] = block.contacts.near;
   std::array<std::size_t, NeighbourList::kinds> count{};
@@ -95,7 +95,7 @@ void sort_into_lists(Block& block, bool viscous, Selection& chosen) {
   chosen.count = count;
 }
 
-/// Gives the pairs that have no contact yet one in `fresh`.
+/// Adds a contact to `fresh` for each pair that has none.
 void meet(const Particles& particles, const Recollection& recollection, std::span<ChosenPair> pairs,
           ContactList& fresh) {
   for (ChosenPair& pair : pairs) {
@@ -139,7 +139,7 @@ Deepest select_pairs(const Particles& particles, const Domain& domain, Block& bl
     chosen.bridges.add(i, j, static_cast<float>(scale), recollection.bond(other.kept(), place));
   }
   chosen.bridges.pad(dummy);
-  // Copied, not swapped: lists that wander from block to block all become as long as the longest.
+  // Copied, not swapped: lists that move between blocks all become as long as the longest.
   block.contacts.join({&chosen.contacts});
   block.contacts.near = chosen.contacts.near;
   block.bridges.join({&chosen.bridges});
@@ -149,7 +149,7 @@ Deepest select_pairs(const Particles& particles, const Domain& domain, Block& bl
 void select_at_wall(const Particles& particles, const Wall& wall, const Block& block, WallContacts& touching,
                     Selection& selection, const AttractionReach& reach, const DisplacementBounds& bounds,
                     double wall_bound) {
-  // Both lists are in the order of the grains: one pass merges memory into the new list.
+  // Both lists are in the order of the grains: one pass copies the history to the new list.
   const ContactList& contacts = touching.contacts;
   ContactList& chosen = selection.at_wall;
   chosen.clear();

@@ -20,8 +20,8 @@ void move(Wall& wall, double dt) {
   wall.velocity_before = wall.velocity;
   wall.angular_velocity_before = wall.angular_velocity;
   const Vec3 shift = dt * wall.velocity;
-  // Cayley's rotation: exactly orthogonal, right to third order in the angle of one step, and free of library functions
-  // whose last bit differs between processors.
+  // Cayley's rotation: exactly orthogonal, accurate to third order in the angle of a step, and free of library
+  // functions whose last bit differs between processors.
   const double half = 0.5 * dt * wall.angular_velocity.y, scale = 1 / (1 + half * half);
   const double sine = 2 * half * scale, cosine = (1 - half * half) * scale;
   const auto carry = [&](Vec3& point) { point = wall.pivot + turn_about_y(point - wall.pivot, sine, cosine) + shift; };

@@ -14,7 +14,7 @@ namespace pastefit {
 
 inline constexpr double kGravity = 9.81;  ///< [m/s^2], downwards along z
 
-/// What exists: grains, walls, their contacts, and the moment they are at.
+/// State of a scene: grains, walls, their contacts, and the time.
 class World {
  public:
   Domain domain;
@@ -25,9 +25,9 @@ class World {
   NormalLaw normal = NormalLaw::hertz;
   BridgeShape attraction = BridgeShape::none;
   RollingModel rolling = RollingModel::none;
-  double reference_radius = 1;  ///< mean radius: the size the bridge's numbers belong to [m]
+  double reference_radius = 1;  ///< mean radius: grain size that the bridge constants refer to [m]
   double gravity = kGravity;
-  double drag = 0;  ///< share of its velocity a grain loses in a second [1/s]; for phases that are no part of the test
+  double drag = 0;  ///< damping rate of velocities [1/s]; only for phases outside the test
 
   double time = 0;  ///< [s]
   std::int64_t step = 0;
@@ -38,11 +38,11 @@ class World {
   }
 };
 
-/// Sets the laws of a contact model between grains; walls are given theirs by `wall_pair`.
+/// Sets the contact laws between grains; walls get theirs from `wall_pair`.
 void set_contact_model(World& world, const ContactModel& model, double reference_radius);
 
-/// Turns all grains half round about the z axis, with what they and their contacts
-/// remember: exact. The walls stay; those that touch grains must look the same after the turn.
+/// Rotates all grains by half a turn about the z axis, with their history and that of their contacts: exact. Walls are
+/// not rotated; those that touch grains must be symmetric.
 void turn_half_round(World& world);
 
 }  // namespace pastefit
