@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
-"""Reads core and calibrate: folders include each other in one direction only, core nothing of calibrate, no two headers
-have one file name, no two types of one name are declared, files include what they name, and what a file keeps to itself
-has a name of its own.
+"""Checks core and calibrate: folders include each other in one direction only, core includes nothing of calibrate, header names
+and type names are unique, files include what they use, and file-local names are unique.
 
 usage: check_includes.py SOURCE_DIR
 """

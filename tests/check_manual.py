@@ -1,5 +1,5 @@
 """Runs the commands of the manual (calibrate/manual): every block marked sh, page by page, in a folder with the shipped
-studies, laboratory files and cards. A calibration gets a handful of simulations of coarse grains, and may end unconfirmed.
+studies, laboratory files and cards. Calibrations are limited to a few simulations of coarse grains, and may end unconfirmed.
 
 usage: check_manual.py PROGRAM SOURCE_DIR [unittest options]
 """

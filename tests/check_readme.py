@@ -1,5 +1,5 @@
-"""Compares READMEs and manual with the tree and the program, and runs the main README's example and the tutorial. Where a page
-shows what a command prints, its numbers have to be those of the run; its words are free.
+"""Compares READMEs and manual with the source tree and the program, and runs the main README's example and the tutorial.
+Numbers that a page shows as output must be those of the run; the wording is free.
 
 usage: check_readme.py PROGRAM SOURCE_DIR
 """

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Counts what a reader has to walk through, and fails where there is more of it than before: see `MOST`; and fails where a
-word that was given up for another returns: see `RETIRED`.
+"""Counts measures of complexity, and fails if one exceeds its limit (`MOST`) or if a replaced word returns (`RETIRED`).
 
 usage: check_structure.py SOURCE_DIR
 """

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""What a confirmation tells of the share of heaps that shear off, and how many heaps a card costs.
+"""What a confirmation determines about the share of heaps that shear off, and how many heaps a card costs.
 
 usage: confirmations.py EVALUATIONS.sqlite...
        confirmations.py --readings
 
-Takes the heaps near the readings of concrete 79 (within 15 mm of its height and 25 mm of its spread, with the study's own grains) that
-searches stored (`standing_heaps.py --keep`), and draws confirmations from how far they shifted: as they are, or scaled so that another
-share exceeds the limit. 3,000 for each number, so that a share is known to 0.01. A candidate costs three simulations besides. The rule is
-that of calibrate/judge/verdict.h; the probability by how near heaps came is that of a normal variable of unknown mean and deviation,
-drawn here (400 deviations), of a noncentral t distribution there.
+Takes stored simulations (`standing_heaps.py --keep`) near the readings of concrete 79 (within 15 mm of its height and 25 mm
+of its spread, with the study's own grains), and draws confirmations from the shifts of their tops: unchanged, or scaled so
+that another share exceeds the limit. 3,000 draws for each number give a share to 0.01. Each candidate costs three more
+simulations. The decision rule is that of calibrate/judge/verdict.h. The probability from the shifts is that of a normal
+variable of unknown mean and deviation, drawn here (400 deviations), and of a noncentral t distribution there.
 
---readings: how often a material is confirmed whose true error is known, by the mean over 8 packings that scatter normally, and by a
-mean that is looked at after 8, 12, ..., 64 of them until it is told. 200,000 materials for each number.
+--readings: how often a material of known true error is confirmed, by the mean over 8 normally distributed packings, and by a
+mean that is examined after 8, 12, ..., 64 of them until there is a decision. 200,000 materials for each number.
 """
 import json
 import math

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""What a spread of grain sizes does to heaps: share that shears off, scatter, reach and cost.
+"""How a distribution of grain sizes affects heaps: share that shears off, scatter, reach and cost.
 
 usage: grain_sizes.py PROGRAM TABLE.csv [--packings 24] [--sizes "6 to 10" ...] [--materials "card of mix 79" ...]
 
-Simulates each material with each distribution of radii on packings 1, 2, ... in the mould of mix 79 (data/lab), and appends a row for
-each simulation to TABLE.csv. Rows that stand there are not run again. `grain_sizes.py --report TABLE.csv` prints the table.
+Simulates each material with each distribution of radii on packings 1, 2, ... in the mould of mix 79 (data/lab), and appends
+a row for each simulation to TABLE.csv. Existing rows are not run again. `grain_sizes.py --report TABLE.csv` prints the
+table.
 """
 import argparse
 import csv

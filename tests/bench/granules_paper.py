@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Pellet crush and shear cell beside the tables of Karkala et al., Processes 7 (2019) 278.
+"""Pellet crush and shear cell compared with the tables of Karkala et al., Processes 7 (2019) 278.
 
 usage: granules_paper.py PROGRAM TABLE.csv [--test pellet|shear] [--basis elastic,total,net] [--lever 1,2] [--rows base,...]
                          [--seeds 1,2,3] [--full]
        granules_paper.py --report TABLE.csv
        granules_paper.py PROGRAM DIR --calibrate [--basis elastic] [--seeds 1,2,3]
 
-Every row of the paper's tables is simulated in each basis of the friction limit and for each lever: EDEM's torque of rolling is
-mu_r F_n R_i with the granule's own radius, ours mu_r N R* with half of it between equal granules, so lever 2 doubles the coefficient.
-Granules three times (pellet) or twice (shear cell) as large as the paper's, with force over R^2 kept; --full takes the paper's.
-Runs that stand in the table are not repeated. The report has means and standard errors over the seeds. --calibrate finds the surface
-energy for the strength that the paper's laboratory measured, with each of the paper's four sets of the other parameters, and shears what it finds.
+Simulates every row of the paper's tables with each basis of the friction limit and each lever: EDEM's rolling torque is mu_r
+F_n R_i with the granule's own radius, ours mu_r N R*, which is half of it between equal granules, so lever 2 doubles the
+coefficient. Granules are three times (pellet) or twice (shear cell) as large as the paper's, at equal force over R^2; --full
+takes the paper's. Existing rows are not run again. The report has means and standard errors over the seeds. --calibrate fits
+the surface energy to the strength measured in the paper, with each of the paper's four sets of the other parameters, and
+shears the result.
 """
 import argparse
 import csv

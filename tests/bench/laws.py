@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Sheets as laboratories have them, calibrated as `pastefit new` sets them up, with each law of attraction.
+"""Typical laboratory sheets, calibrated as `pastefit new` sets them up, with each law of attraction.
 
 usage: laws.py PROGRAM TABLE.csv [--sheets structural,en,stiff,uci:79,...] [--laws epa,bridge] [--seeds 1,2] [--at-once 2]
                                  [--search KEY=VALUE ...] [--parameters JSON] [--foreign 16]
        laws.py --report TABLE.csv
 
-structural: Abrams cone, slumps 95, 110 and 100 mm, spread 270 mm. en: EN 12350-5 with one drop. stiff: slumps of 40 to 120 mm with
-spreads of 0.8 and 0.9 of the width of a cone of the mould's volume and the heap's height; slump-80-0.9: one of them. uci:NN: a concrete of Yeh's slump tests,
-uci:all: those whose spread is at most 1.1 of that width. The law `new` is what `pastefit new` chooses by itself. Rows that
-stand in the table are not run again. Each material is simulated on packings 201 to 216 (`--foreign` many), which no search has
-seen; of its heaps those that stand are averaged. core_s is the processor time of the calibration, core_s_to_card its share of the simulations up
-to the end of the confirmation.
+structural: Abrams cone, slumps 95, 110 and 100 mm, spread 270 mm. en: EN 12350-5 with one drop. stiff: slumps of 40 to 120
+mm with spreads of 0.8 and 0.9 of the width of a cone of the mould's volume and the heap's height; slump-80-0.9: one of them.
+uci:NN: a concrete of Yeh's slump tests; uci:all: those whose spread is at most 1.1 of that width. The law `new` is the one
+that `pastefit new` chooses. Existing rows are not run again. Each material is simulated on packings 201 to 216 (number:
+`--foreign`), which no search has used; readings are averaged over the heaps that do not shear off. core_s is the processor
+time of the calibration, core_s_to_card that of its simulations up to the end of the confirmation.
 """
 import argparse
 import concurrent.futures

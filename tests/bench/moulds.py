@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Heaps of materials in moulds of other sizes and shapes than the one that they were calibrated with.
+"""Heaps of a material in moulds of other sizes and shapes than that of its calibration.
 
 usage: moulds.py PROGRAM [--law epa|bridge] [--moulds abrams,plate,pashias,hagermann,double] [--packings 4] NAME=VALUE ...
 
-NAME=VALUE are parameters of the material (`adhesion_ratio=0.84 table_friction=0.15`); the others have the values that `pastefit new`
-writes. A row for each mould: height and spread after each step, mean and deviation, and how many heaps sheared off (top shifted by
-more than 0.4 of the mould's base radius).
+NAME=VALUE are parameters of the material (`adhesion_ratio=0.84 table_friction=0.15`); the others have the values that
+`pastefit new` writes. A row for each mould: height and spread after each step, mean and deviation, and how many heaps
+sheared off (top shifted by more than 0.4 of the mould's base radius).
 """
 import argparse
 import json

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What a parameter does to heaps that shear off: packings of a card with other values, counted and averaged.
+"""How a parameter affects the share of heaps that shear off: packings of a card with other values, counted and averaged.
 
 usage: parameter_heaps.py PROGRAM CARD TABLE.csv [--set NAME=VALUE ...] --vary NAME=VALUE,VALUE... [--packings 201:217] [--jobs 2]
 
-Each value of the varied parameter, with the other values of --set for all of them. A row: the label, the value, heaps that ran,
-how many sheared off (top shifted by more than 0.4 of the mould's base radius), height and spread of those that stand (all, where
-none does) with the standard deviation of one, the simulated time of step 1, and core-seconds of a heap. Runs that fail are counted
-as such. Rows that stand in the table are not run again.
+Simulates each value of the varied parameter, with the values of --set for all. A row: label, value, number of heaps
+simulated, number sheared off (top shifted by more than 0.4 of the mould's base radius), height and spread of the others (of
+all, if all sheared off) with the standard deviation of one, the simulated time of step 1, and core-seconds of a heap. Failed
+runs are counted as such. Existing rows are not run again.
 """
 import argparse
 import csv

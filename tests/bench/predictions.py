@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""How often the band that `pastefit predict` gives for another test holds what that test then leaves.
+"""Coverage of the bands that `pastefit predict` gives for another test.
 
 usage: predictions.py PROGRAM TABLE.csv [--twins 1-20] [--preset hinged-plate] [--crossed]
        predictions.py --report TABLE.csv
 
-A twin is a material drawn at random, with the bridge (odd numbers) or elasto-plastic adhesion (even ones). Its laboratory is the
-program itself: the mean height and spread of the heaps of three packings in the Abrams cone, in whole millimetres. `pastefit new` and
-`pastefit calibrate` find a material for these two readings, with the law of the twin or, `--crossed`, with the other one, and
-`pastefit predict` says what it will leave on the preset. One heap of the twin there, in a packing that nothing else has used, is what
-was measured. Twins with a heap that sheared off, or of a height outside of 60 to 230 mm, are drawn again. A row of the table is a
-reading; rows that stand in it are not run again.
+A twin is a random material with the bridge (odd numbers) or elasto-plastic adhesion (even numbers). Its measurement is
+simulated: the mean height and spread of three packings in the Abrams cone, in whole millimetres. `pastefit new` and
+`pastefit calibrate` fit a material to these two readings, with the law of the twin or, with `--crossed`, the other one, and
+`pastefit predict` predicts the preset. One heap of the twin there, in a packing used nowhere else, is the measurement to
+compare with. Twins are redrawn if a heap sheared off or its height is outside 60 to 230 mm. A row of the table is a reading;
+existing rows are not run again.
 """
 import argparse
 import csv

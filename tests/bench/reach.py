@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Which spreads standing heaps have at the height that a laboratory measured.
+"""Spreads of the heaps that do not shear off, at a measured height.
 
 usage: reach.py EVALUATIONS.sqlite...
 
-Takes every whole simulation of an Abrams cone that the searches stored (`standing_heaps.py --keep`), whatever they were looking for. For each mix: of
-the heaps whose height is within the tolerance, how many sheared off, and the quantiles of the spread of those that stand. A mix is in
-reach where its spread, less or more its tolerance, lies between them. Then, of the heaps near both readings of some mix, the share
-that sheared off, by their sliding friction.
+Takes every complete stored simulation of an Abrams cone (`standing_heaps.py --keep`), whatever the target of its search. For
+each mix: of the heaps with a height within the tolerance, the number sheared off, and quantiles of the spread of the others.
+A mix is in reach if its spread, plus or minus its tolerance, is between them. Then, of the heaps near both readings of some
+mix, the share that sheared off, by their sliding friction.
 """
 import json
 import sqlite3

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""Calibrations of concretes, and what becomes of their materials on packings that no search has seen.
+"""Calibrations of concretes, and heaps of the resulting materials on packings that no search has used.
 
 usage: standing_heaps.py PROGRAM TABLE.csv [--mixes 79,57] [--seeds 1,2] [--grains mono|spread] [--shape free|fixed]
                          [--shift] [--unexamined] [--core-budget 400] [--keep DIR]
        standing_heaps.py --report TABLE.csv
 
-The study of mix 79 (data/studies) with the readings of other mixes. Grains: 8 mm, or evenly from 6 to 10 mm. Shape: all eight
-parameters free, or the shape of the bridge fixed as the study has it. With --shift the top's shift is fitted to 0 within 40 mm and heaps that shear off are not counted (`rejected_share` 1), as the
-studies had it before. Rows that stand in the table are not run again. Each material is simulated on packings 201 to 216, of which
-height and spread are those of the heaps that stand; core_s is the processor time of the calibration, page included.
+The study of mix 79 (data/studies) with the readings of other mixes. Grains: 8 mm, or uniform from 6 to 10 mm. Shape: all
+eight parameters free, or the shape of the bridge fixed as in the study. With --shift the top's shift is fitted to 0 within
+40 mm and sheared heaps are not counted (`rejected_share` 1), as in earlier versions of the studies. Existing rows are not
+run again. Each material is simulated on packings 201 to 216; height and spread are those of the heaps that do not shear off;
+core_s is the processor time of the calibration, page included.
 """
 import argparse
 import csv

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The strength of heaps over the yield stress that their height has by a formula.
+"""Strength of heaps over the yield stress that a formula gives for their height.
 
 usage: strengths.py EVALUATIONS.sqlite...
 
-Takes every whole simulation of an Abrams cone that the searches stored (`standing_heaps.py --keep`), coarse grains too, of concrete 79's
-density. The formula is that of calibrate/laboratory/yield_stress.h (Schowalter & Christensen 1998).
+Takes every complete stored simulation of an Abrams cone (`standing_heaps.py --keep`), also of coarse grains, with the
+density of concrete 79. The formula is that of calibrate/laboratory/yield_stress.h (Schowalter & Christensen 1998).
 """
 import json
 import math

@@ -1,4 +1,4 @@
-"""The schemas of data/schema, each whole: what it refers to in another one stands in its place."""
+"""The schemas of data/schema, with references to other schemas resolved."""
 
 import json
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""`pastefit confirm` with LAMMPS, which it builds itself, on two ranks: the heap agrees with the card's own within the
-noise, and the cost is that of two ranks.
+"""`pastefit confirm` with LAMMPS, which it builds itself, on two ranks: the heap agrees with that of the card within the noise,
+and the cost is that of two ranks.
 
 usage: confirm.py PASTEFIT CARD CACHE_DIR
 

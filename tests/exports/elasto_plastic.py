@@ -1,13 +1,12 @@
-"""Elasto-plastic adhesion of two grains, computed apart from the engine; and the model of LIGGGHTS that is nearest to it.
+"""Elasto-plastic adhesion of two grains, computed independently of the engine; and the nearest model of LIGGGHTS.
 
 usage: elasto_plastic.py        (needs liggghts)
 
-As a program it takes two grains through all branches in LIGGGHTS's model `edinburgh` with a fixed adhesion stiffness: with
-linear springs it has to give the law to 1e-6 of the largest force; with the exponent 3/2 as long as no contact comes back
-from the adhesion branch, and there the force that its source says, along that branch. What exported decks have to know of
-LIGGGHTS 3.8.0 is measured besides: `limitForce`, its default, cuts every pull without a constant pull-off; and where it
-sorts grains, a pair that is listed the other way round forgets how deep it was pressed. Exit status 77 where LIGGGHTS is
-missing.
+As a program it moves two grains through all branches of LIGGGHTS's model `edinburgh` with a fixed adhesion stiffness. With
+linear springs it must give the law to 1e-6 of the largest force; with the exponent 3/2 only until a contact returns from the
+adhesion branch, after which it must give the force of its source code. It also measures what exported decks must consider in
+LIGGGHTS 3.8.0: `limitForce`, its default, removes every attraction without a constant pull-off; and when grains are sorted,
+a pair whose order changes loses its largest overlap. Exit status 77 without LIGGGHTS.
 """
 
 import pathlib

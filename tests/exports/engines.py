@@ -1,4 +1,4 @@
-"""The programs that exported decks are for: how to call them here."""
+"""The programs for which decks are exported: how to call them here."""
 
 import hashlib
 import os

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What contacts remember stays with the grains: the relaxing fill of an exported deck in LAMMPS in one go, from a restart
-file half way, and on two ranks that exchange a fifth of the grains half way, ends at the same places.
+"""The contact history follows the grains: the fill of an exported deck comes to rest at the same positions in LAMMPS in one
+run, from a restart file half way, and on two ranks that exchange a fifth of the grains half way.
 
 usage: lammps_memory.py PASTEFIT CARD
 

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""Angles of repose of dry materials in another program, from the exported deck, and in pastefit, in the same fillings.
+"""Compares angles of repose of dry materials in another program, from the exported deck, with those in pastefit, in the same
+packings.
 
 usage: repose_round_trip.py PASTEFIT LAB [--to liggghts|lammps] [--pairs 0.3/0.1,0.5/0.2,...] [--packings N] [--within DEGREES]
 
-LAB is a laboratory file of a lifted cylinder, with an angle of repose. Each pair is the sliding and the rolling friction of
-the grains, those of the walls too, so that no friction differs between the programs. All of it is asked of the exporter: a
-study in which nothing is left to find gives the card.
+LAB is a laboratory file of a lifted cylinder with an angle of repose. Each pair is the sliding and the rolling friction of
+grains and walls alike, so that the frictions are the same in both programs. The card comes from a study without free
+parameters.
 
-Exit status 1 if a mean angle differs by more than DEGREES (1), and by more than the noise of the means allows to tell (two
-standard errors of the difference); 77 if the program is not installed.
+Exit status 1 if a mean angle differs by more than DEGREES (1) and by more than two standard errors of the difference; 77 if
+the program is not installed.
 """
 
 import argparse

@@ -1,16 +1,15 @@
 #!/usr/bin/env python3
-"""Runs the slump test of cards in another program, from the exported deck, and in pastefit, in the same fillings, and
-compares.
+"""Runs the slump test of cards in another program, from the exported deck, and in pastefit, in the same packings, and compares.
 
 usage: slump_round_trip.py PASTEFIT CARD... [--to lammps|liggghts|yade] [--strengths 0.3,1,2,4,10]
                            [--packings N] [--radius-mm R] [--ranks N] [--time-step S] [--both-steps]
                            [--law epa|luding] [--adhesion-ratio X]
 
-For each factor of --strengths a card's attraction is multiplied by it, so that a family from weak to strong comes out.
-Step 1 only, unless --both-steps, which gives a card without a drop plate the usual one. With --law a card's grains are soft, yield and adhere instead (`elasto_plastic.slump_card`), with the radius of
---radius-mm.
+--strengths multiplies a card's attraction by each factor, for a series from weak to strong. Step 1 only, unless
+--both-steps, which adds the usual drop plate to a card without one. With --law a card's grains are soft and have
+elasto-plastic adhesion instead (`elasto_plastic.slump_card`), with the radius of --radius-mm.
 
-Exit status 1 if some reading differs by more than noise does once in a thousand comparisons (t-interval for the
+Exit status 1 if a reading differs significantly, at a false alarm rate of one in a thousand comparisons (t-interval for the
 difference of two means, pooled variance; spreads below a millimetre count as one); 77 if the program is not installed.
 """
 

@@ -1,18 +1,16 @@
 #!/usr/bin/env python3
-"""Force of two grains against their distance, measured in another program with the deck that was exported for it,
-against the card's law.
+"""Force of two grains against their distance, computed by another program from its exported deck, against the card's law.
 
 usage: two_grains.py PASTEFIT CARD lammps|liggghts|yade [jkr|dmt|sjkr|epa|luding|linear|exponential|capillary]
 
-With a law of the overlap that sticks, the card's grains stick by that instead of their bridges; with elasto-plastic
-adhesion (`epa`, `luding`) they go through all its branches (`elasto_plastic.py`). With another attraction the bridge has
-that shape.
+With an adhesive normal law the card's grains have this instead of bridges; with elasto-plastic adhesion (`epa`, `luding`)
+they go through all its branches (`elasto_plastic.py`). With another attraction the bridge has that shape.
 
-The program has to give the card's curve to 1e-6 of its peak, LAMMPS, which runs the engine's own laws, to 1e-10: on the way apart, with a bridge that lives until it
-ruptures, and, where the program has memory, on the way back, where a new one forms when the shells meet. LIGGGHTS, whose
-nearest law is another one, has to give the curve that the export says it will, to 1e-6 of the peak; the difference to
-the card is reported. SJKR stands in for other laws that stick in LIGGGHTS, DMT in Yade, of the same pull-off.
-Exit status 77, and "skipped: ... is not installed", where the program is missing.
+The program must give the card's curve to 1e-6 of its peak, and LAMMPS, which runs the engine's own laws, to 1e-10: during
+separation, where a bridge lives until it ruptures, and, if the program has a history, during approach, where a new one forms
+when the shells touch. LIGGGHTS, whose nearest law differs, must give the curve stated by the export, to 1e-6 of the peak;
+the difference from the card is reported. SJKR of the same pull-off replaces other adhesive laws in LIGGGHTS, DMT in Yade.
+Exit status 77, and "skipped: ... is not installed", without the program.
 """
 
 import copy

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Runs the fuzz targets (README.md), one after the other, and says how many files each has read.
+"""Runs the fuzz targets (README.md) one after the other, and prints the number of files that each has read.
 
 usage: run.py BUILD_DIR SECONDS [READER...]     SECONDS for all of them together
 
-A file that a reader cannot cope with (a crash, more than five seconds on a busy machine, more than a gigabyte) is kept
-in BUILD_DIR/fuzz, and the exit status is 1.
+Files that cause a defect (a crash, more than five seconds on a busy machine, more than a gigabyte) are kept in
+BUILD_DIR/fuzz, and the exit status is 1.
 """
 
 import json

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Tests of the page of a calibration that need npm, node and a browser; without them they are skipped (status 77).
+"""Tests of the page of a calibration that need npm, node and a browser; skipped (status 77) without them.
 
 usage: run.py sources SOURCE_DIR WORK_DIR            checks the page's scripts: format, ESLint, types, unit tests
-       run.py bundle SOURCE_DIR WORK_DIR             builds the page anew and compares it with the one that is shipped
-       run.py browser PROGRAM SOURCE_DIR WORK_DIR    looks at the page of a calibration in Chromium
+       run.py bundle SOURCE_DIR WORK_DIR             rebuilds the page and compares it with the shipped one
+       run.py browser PROGRAM SOURCE_DIR WORK_DIR    tests the page of a calibration in Chromium
        run.py picture PROGRAM SOURCE_DIR WORK_DIR    makes the picture of the README, of the first example's card
-       run.py map PROGRAM SOURCE_DIR WORK_DIR        calibrates that, some minutes, and draws what is open
+       run.py map PROGRAM SOURCE_DIR WORK_DIR        calibrates that, some minutes, and draws the map of the misfit
 
 WORK_DIR keeps the packages of npm between runs, the pages, and pictures of them (WORK_DIR/shots).
 """

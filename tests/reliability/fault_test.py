@@ -1,13 +1,13 @@
-"""Makes one call of a calibration fail, another one each time, resumes it, and compares the card.
+"""Makes one call of a calibration fail, a different one each time, resumes the calibration, and compares the card.
 
 usage: fault_test.py FAULTS SEED LIBRARY STUDY COMMAND...
 
-LIBRARY is failing_calls.so: the n-th write, sync, rename, start of a thread, or memory for SQLite fails. FAULTS is how
-many of each kind are drawn, or "all": every one that an undisturbed run has. COMMAND is as in kill_test.py.
+LIBRARY is failing_calls.so: the n-th write, sync, rename, thread start, or memory allocation of SQLite fails. FAULTS is the
+number drawn of each kind, or "all": every call of an undisturbed run. COMMAND is as in kill_test.py.
 
-Checked after every fault: the program ends within a minute with a documented status (0, 1 or 2), and with a word if
-there is no card. Checked after it went on: the same card, byte for byte, as that of the undisturbed run, the same
-evaluations, and no other files than that one has.
+Checked after every fault: the program ends within a minute with a documented status (0, 1 or 2), and with a message if there
+is no card. Checked after resuming: the same card, byte for byte, as that of the undisturbed run, the same evaluations, and
+no other files.
 """
 
 import os

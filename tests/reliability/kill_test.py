@@ -2,15 +2,15 @@
 
 usage: kill_test.py KILLS SEED STUDY COMMAND...
 
-COMMAND is a calibration with {study} and {out} in place of the study file and the output folder; it must go on with
-what {out} holds. `pastefit calibrate` is one too:
+COMMAND is a calibration with {study} and {out} in place of the study file and the output folder; it must resume from
+the contents of {out}. `pastefit calibrate` is an example:
 
     kill_test.py 10 1 data/studies/concrete-mix-66.json \
         build/release/calibrate/pastefit calibrate {study} --out {out} --resume
 
-Each kill comes after a time drawn evenly over an undisturbed run. Checked after every kill: the store opens, and holds
-every evaluation that it held before. Checked at the end: the same card, byte for byte, as that of the undisturbed run,
-and the same evaluations; if COMMAND prints "simulated N", that it made no more than were missing.
+Each kill comes at a random time of an undisturbed run. Checked after every kill: the store opens, and contains every
+evaluation that it contained before. Checked at the end: the same card, byte for byte, as that of the undisturbed run,
+and the same evaluations; if COMMAND prints "simulated N", also that it repeated none.
 """
 
 import contextlib

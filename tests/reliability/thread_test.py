@@ -1,9 +1,9 @@
-"""Has the start of one thread fail, another one each time: a simulation on two threads ends with the same readings.
+"""Makes the start of one thread fail, a different one each time: a simulation on two threads ends with the same readings.
 
 usage: thread_test.py LIBRARY LAB PROGRAM
 
-LIBRARY is failing_calls.so. Checked as well: every fault came. Skipped (status 77) where there is one processor, because
-nothing is shared there.
+LIBRARY is failing_calls.so. Also checks that every fault occurred. Skipped (status 77) on one processor, where no work is
+shared.
 """
 
 import json

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Search strategies side by side on one study, with the same budget, their results judged on the same fresh packings.
+"""Compares search strategies on one study: same budget, results judged on the same new packings.
 
 usage: compare.py PROGRAM STUDY [--strategies default,bobyqa,...] [--seeds 1,2] [--budget N] [--judge-packings 8] [--threads 2]
 
-A row for each strategy: searches confirmed; medians of the simulations and of the error of its material (largest difference over its
-tolerance, means of the judging packings, readings that are fitted with a tolerance); the worst error. Strategies that cannot search
-the study's parameters say so and are left out.
+A row for each strategy: number of confirmed searches; medians of the number of simulations and of the error of the material
+(largest difference over its tolerance, means of the judging packings, fitted readings with a tolerance); the worst error.
+Strategies that cannot search the study's parameters report this and are left out.
 """
 import argparse
 import json

@@ -1,4 +1,4 @@
-"""Quick studies for the tests of many: coarse grains, a strength, a height."""
+"""Quick studies for tests of many studies: coarse grains, one strength, one height."""
 
 import json
 import pathlib

@@ -1,5 +1,5 @@
-"""A user at the command line: the program, shipped files and a folder of his own. Reads PROGRAM and SOURCE_DIR from the
-command line of the test."""
+"""A user at the command line: the program, shipped files and a folder. Reads PROGRAM and SOURCE_DIR from the command line of
+the test."""
 
 import atexit
 import functools

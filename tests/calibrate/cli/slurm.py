@@ -1,4 +1,4 @@
-"""Slurm on this one machine, as plain processes with files and keys of their own, for tests."""
+"""Slurm on this machine, as plain processes with separate files and keys, for tests."""
 
 import os
 import pathlib

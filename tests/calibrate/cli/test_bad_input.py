@@ -1,4 +1,4 @@
-"""Bad input gets one message that names every fault, exit status 2, and nothing is written.
+"""Bad input gives one message with every error and exit status 2, and nothing is written.
 
 usage: test_bad_input.py PROGRAM SOURCE_DIR [unittest options]
 """

@@ -1,4 +1,4 @@
-"""What a person does with a card on the command line: show, rescale, export, check.
+"""The commands for cards: show, rescale, export, check.
 
 usage: test_card_commands.py PROGRAM SOURCE_DIR [unittest options]
 """

@@ -1,4 +1,4 @@
-"""A simulation that is stopped or killed goes on from its checkpoint, as if nothing had been.
+"""A stopped or killed simulation resumes from its checkpoint with the same result.
 
 usage: test_checkpoint.py PROGRAM SOURCE_DIR [unittest options]
 """

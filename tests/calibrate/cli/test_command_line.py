@@ -1,4 +1,4 @@
-"""What the program does on the command line: exit statuses, messages, and what is written.
+"""The command line: exit statuses, messages, and written files.
 
 usage: test_command_line.py PROGRAM SOURCE_DIR [unittest options]
 """

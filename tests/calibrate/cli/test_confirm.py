@@ -1,5 +1,5 @@
-"""pastefit confirm: a card's test in another engine. The engine here is a stand-in that leaves the filled mould as the heap,
-or fails in the ways that engines do; LAMMPS itself is in tests/exports/confirm.py.
+"""pastefit confirm: a card's test in another engine. The engine here is a stand-in that returns the filled mould as the heap,
+or fails as engines do; for LAMMPS itself see tests/exports/confirm.py.
 
 usage: test_confirm.py PROGRAM SOURCE_DIR [unittest options]
 """

@@ -1,4 +1,4 @@
-"""What the program says of itself: help, man pages, completion.
+"""Help texts, man pages, and shell completion.
 
 usage: test_help.py PROGRAM SOURCE_DIR [unittest options]
 """

@@ -1,4 +1,4 @@
-"""What the program does with input that is broken or meant to harm.
+"""Broken or malicious input.
 
 usage: test_hostile_input.py PROGRAM SOURCE_DIR [unittest options]
 """

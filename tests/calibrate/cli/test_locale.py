@@ -1,4 +1,4 @@
-"""Where numbers are written with a comma, and where the capital of i has a dot, every file reads and writes the same.
+"""In locales with a decimal comma, or with a dotted capital I, every file is read and written the same.
 
 usage: test_locale.py PROGRAM SOURCE_DIR [unittest options]
 """

@@ -1,4 +1,4 @@
-"""What takes long says how far it is, and what would take too long, or cannot be kept, is refused before it begins.
+"""Long runs report their progress; runs that would take too long, or whose results cannot be stored, are refused at the start.
 
 usage: test_long_runs.py PROGRAM SOURCE_DIR [unittest options]
 """

@@ -1,5 +1,4 @@
-"""`pastefit new`: from what a measuring sheet says to a laboratory file and a study that run, asked on a terminal or
-given as options.
+"""`pastefit new`: from a measuring sheet, entered on a terminal or as options, to a laboratory file and a study that run.
 
 usage: test_new.py PROGRAM SOURCE_DIR [unittest options]
 """

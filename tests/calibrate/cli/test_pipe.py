@@ -1,4 +1,4 @@
-"""Every kind of laboratory test on its way through the program, from its starting files to an export.
+"""Every kind of laboratory test through the whole program, from its starting files to an export.
 
 usage: test_pipe.py PROGRAM SOURCE_DIR [unittest options]
 """

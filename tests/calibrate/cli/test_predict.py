@@ -1,4 +1,4 @@
-"""`pastefit predict`: what the materials that fit a calibration leave in another test, and which test to measure next.
+"""`pastefit predict`: predictions of the fitting materials for another test, and the next test to measure.
 
 usage: test_predict.py PROGRAM SOURCE_DIR [unittest options]
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page of a calibration, as the program writes it; in a browser it is looked at by tests/page.
+"""The page of a calibration as written by the program; tests/page opens it in a browser.
 
 usage: test_report.py PROGRAM SOURCE_DIR
 """

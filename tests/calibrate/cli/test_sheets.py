@@ -1,5 +1,5 @@
-"""What people bring from their laboratories: decimal commas, inches, misread repeats, a radius for a width. It is
-refused, or named before anything runs, in the words of who typed it.
+"""Typical errors in laboratory data: decimal commas, inches, misread repeats, a radius for a width. They are refused, or
+reported before any run, in the user's terms.
 
 usage: test_sheets.py PROGRAM SOURCE_DIR [unittest options]
 """

@@ -1,5 +1,5 @@
-"""Every verb on every shipped file of its kind: an answer or a classified failure, never a bug of the program. That cards
-still hold (`check`) and cases are met (`verify`) are tests of their own (tests/CMakeLists.txt).
+"""Every verb on every shipped file of its kind gives an answer or a classified failure, never an internal error. `check` of the
+cards and `verify` of the cases are separate tests (tests/CMakeLists.txt).
 
 usage: test_shipped_files.py PROGRAM SOURCE_DIR [unittest options]
 """

@@ -1,5 +1,5 @@
-"""Many studies as an array job of Slurm, on this machine. Ends with 77, skipped, where there is no Slurm. With the number
-of studies in PASTEFIT_SLURM_STUDIES it takes more than the four of the gate.
+"""Many studies as an array job of Slurm, on this machine. Skipped (status 77) without Slurm. PASTEFIT_SLURM_STUDIES sets the
+number of studies (default: the four of the gate).
 
 usage: test_slurm.py PROGRAM SOURCE_DIR [unittest options]
 """

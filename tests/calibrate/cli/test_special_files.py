@@ -1,4 +1,4 @@
-"""Devices, FIFOs, sockets and symbolic links where the program reads or writes: none is replaced, none is waited for.
+"""Devices, FIFOs, sockets and symbolic links as input or output: none is replaced, and none blocks the program.
 
 usage: test_special_files.py PROGRAM SOURCE_DIR [unittest options]
 """

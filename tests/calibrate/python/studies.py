@@ -1,5 +1,5 @@
-"""What the tests of the Python package share: coarse studies that take seconds. Reads PROGRAM and SOURCE_DIR from the
-command line of the test; ends it with 77, skipped, where there is no NumPy."""
+"""Shared by the tests of the Python package: coarse studies that take seconds. Reads PROGRAM and SOURCE_DIR from the command
+line of the test; skips it (status 77) without NumPy."""
 
 import json
 import os

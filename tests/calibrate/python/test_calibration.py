@@ -1,4 +1,4 @@
-"""Calibrations from Python: the program's card, progress, interruption, resuming.
+"""Calibrations from Python: the same card as the program's, progress, interruption, resuming.
 
 usage: test_calibration.py PROGRAM SOURCE_DIR [unittest options]
 """

@@ -1,4 +1,4 @@
-"""The card of a mix between those of a batch: pastefit.interpolate.
+"""Card of a mix between those of a batch: pastefit.interpolate.
 
 usage: test_mix.py PROGRAM SOURCE_DIR [unittest options]
 """

@@ -1,4 +1,4 @@
-"""The package itself: stubs that say what is there, docstrings, the tutorial's code.
+"""The package itself: complete stubs, docstrings, the tutorial's code.
 
 usage: test_package.py PROGRAM SOURCE_DIR [unittest options]
 """

@@ -1,4 +1,4 @@
-"""Fitting parameters of a test that pastefit does not know. usage: test_problem.py PROGRAM SOURCE_DIR [unittest options]"""
+"""Fitting parameters of a user-defined test. usage: test_problem.py PROGRAM SOURCE_DIR [unittest options]"""
 
 import concurrent.futures as futures
 import contextlib

@@ -1,4 +1,4 @@
-"""The search with anybody's simulator. usage: test_search.py PROGRAM SOURCE_DIR [unittest options]"""
+"""The search with a user-defined simulator. usage: test_search.py PROGRAM SOURCE_DIR [unittest options]"""
 
 import concurrent.futures as futures
 import math

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads what `simulate --vtk` writes with VTK's own reader (Debian: python3-vtk9); without it the test is skipped.
+"""Reads the output of `simulate --vtk` with VTK's own reader (Debian: python3-vtk9); skipped without it.
 
 usage: read_vtk.py PROGRAM SOURCE_DIR
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds every shipped data file against its schema, and shows that the schemas refuse spoiled files.
+"""Validates every shipped data file against its schema, and checks that the schemas refuse spoiled files.
 
 Usage: check_schemas.py DATA_FOLDER
 """

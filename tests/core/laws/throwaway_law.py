@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Adds a law of the overlap to a copy of the sources, as core/README.md says, counts the files that this takes, builds
-the engine and simulates with it.
+"""Adds a normal law to a copy of the sources, following core/README.md, counts the files this takes, builds the engine and
+simulates with it.
 
 usage: throwaway_law.py SOURCE_DIR BUILD_DIR
 """

@@ -1,4 +1,4 @@
-"""What the decks share. pastefit-bench gives pairs of name and value as arguments of a deck; numbers become numbers."""
+"""Shared by the decks. pastefit-bench passes pairs of name and value as arguments; numbers become numbers."""
 import math
 import sys
 import time

@@ -1,6 +1,7 @@
-"""Both steps of the slump test: mould lifted, plate raised about its hinge and let fall.
+"""Both steps of the slump test: lift of the mould, rise of the plate about its hinge, and drop.
 
-The plate's motion is prescribed: a steady rise, then the free fall of the bare plate in four parts of steady turning.
+The plate's motion is prescribed: a steady rise, then the free fall of the bare plate in four parts of constant angular
+velocity.
 """
 import math
 import os
