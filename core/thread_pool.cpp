@@ -6,12 +6,12 @@ namespace pastefit {
 
 namespace {
 
-constexpr int kPatience = 20000;  // polls before a thread sleeps: some tens of microseconds
+constexpr int kPolls = 20000;  // polls before a thread sleeps: some tens of microseconds
 
 /// Waits until `value` is no longer `old`.
 template <class T>
 void wait_for_change(const std::atomic<T>& value, T old) {
-  for (int look = 0; look < kPatience; ++look) {
+  for (int poll = 0; poll < kPolls; ++poll) {
     if (value.load(std::memory_order_acquire) != old) return;
     __builtin_ia32_pause();
   }

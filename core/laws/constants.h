@@ -29,24 +29,23 @@ struct ConstantsOf {
   Real roll_damping{0};            ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
   Real spin_damping{0};            ///< normal damping at which the damping of spins equals that of the rolling dashpot
   Real size_per_radius{0};         ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
-  Real adhesion{0};        ///< JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]; laws that `yield` k_c/k_1
-  Real stiffening{1};      ///< laws that `yield`: k_2/k_1
-  Real least_plastic{0};   ///< the same: plastic overlap over overlap while loading
-  Real most_plastic{1};    ///< the same on the adhesion branch
-  Real pull_off_patch{0};  ///< JKR: contact radius of reference grains at pull-off [m]
-  Real pull_off_gap{0};    ///< largest gap of reference grains in contact, for a law that `reaches` [m]
-  Real cohesion{0};        ///< constant attraction in overlap [N]
-  bool passes_over =
-      false;              ///< attraction at touch differs from `cohesion`: linear transition over the overlap `passage`
-  Real touch_excess{0};   ///< attraction at touch minus the cohesion [N]
-  Real passage{0};        ///< overlap of reference grains at which the transition ends [m]
-  Real bridge_a{0};       ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
-  Real bridge_b{0};       ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
-  Real bridge_c{0};       ///< attraction at touch [N]
-  Real rupture_gap{0};    ///< -d_c [m]
-  Real formation_gap{0};  ///< gap at which a bridge forms [m]
-  Real viscosity{0};      ///< 6 pi times the viscosity of the liquid [Pa s]
-  Real roughness{0};      ///< smallest gap in lubrication, for reference grains [m]
+  Real adhesion{0};          ///< JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]; laws that `yield` k_c/k_1
+  Real stiffening{1};        ///< laws that `yield`: k_2/k_1
+  Real least_plastic{0};     ///< the same: plastic overlap over overlap while loading
+  Real most_plastic{1};      ///< the same on the adhesion branch
+  Real pull_off_patch{0};    ///< JKR: contact radius of reference grains at pull-off [m]
+  Real pull_off_gap{0};      ///< largest gap of reference grains in contact, for a law that `reaches` [m]
+  Real cohesion{0};          ///< constant attraction in overlap [N]
+  bool passes_over = false;  ///< attraction at touch differs from `cohesion`: transition over `passage`
+  Real touch_excess{0};      ///< attraction at touch minus the cohesion [N]
+  Real passage{0};           ///< overlap of reference grains at which the transition ends [m]
+  Real bridge_a{0};          ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
+  Real bridge_b{0};          ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
+  Real bridge_c{0};          ///< attraction at touch [N]
+  Real rupture_gap{0};       ///< -d_c [m]
+  Real formation_gap{0};     ///< gap at which a bridge forms [m]
+  Real viscosity{0};         ///< 6 pi times the viscosity of the liquid [Pa s]
+  Real roughness{0};         ///< smallest gap in lubrication, for reference grains [m]
 };
 using PairConstants = ConstantsOf<double>;
 

@@ -42,8 +42,7 @@ PASTEFIT_INLINE ContactForce<Real> press(const ConstantsOf<Real>& k, const Conta
   const Real zero(0.0), half(0.5);
   const Real damper = d.damper_n * approach;
   Real cohesion = k.cohesion * size_scale * size_scale;
-  if constexpr (Normal::reaches)
-    cohesion = select(m.overlap > zero, cohesion, zero);  // across a gap the bridge attracts
+  if constexpr (Normal::reaches) cohesion = select(m.overlap > zero, cohesion, zero);  // in gaps the bridge attracts
 
   ContactForce<Real> contact_force;
   contact_force.normal_force = select(normal.touching, normal.force + damper - cohesion, zero);

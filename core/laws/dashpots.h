@@ -44,11 +44,11 @@ PASTEFIT_INLINE Dashpots<Real> dashpots(const ConstantsOf<Real>& k, const Contac
   d.sqrt_impedance = k.sqrt_normal_stiffness * m.sqrt_mass * d.sqrt_contact_radius;
   d.damping_n = k.damping * d.sqrt_impedance;
   const Real damping_t = k.tangential_damping * d.sqrt_impedance;
-  const Real own_n = d.damping_n * m.inverse_mass, own_t = Real(kSurfaceLightness) * damping_t * m.inverse_mass;
-  const Real fastest_n = larger(m.neighbour_damping, own_n);
-  const Real fastest_t = larger(k.spin_damping_share * m.neighbour_damping, own_t);
-  const Real brake_n = fused(quarter * dt, own_n, one) * larger(half * dt * fastest_n, one);
-  d.brake_t = fused(quarter * dt, own_t, one) * larger(half * dt * fastest_t, one);
+  const Real pair_n = d.damping_n * m.inverse_mass, pair_t = Real(kSurfaceLightness) * damping_t * m.inverse_mass;
+  const Real fastest_n = larger(m.neighbour_damping, pair_n);
+  const Real fastest_t = larger(k.spin_damping_share * m.neighbour_damping, pair_t);
+  const Real brake_n = fused(quarter * dt, pair_n, one) * larger(half * dt * fastest_n, one);
+  d.brake_t = fused(quarter * dt, pair_t, one) * larger(half * dt * fastest_t, one);
 
   const Real brakes = brake_n * d.brake_t, wide = larger(contact_radius, Real(detail::kNoWidth));
   const Real inverse = one / (brakes * wide);

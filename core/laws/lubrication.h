@@ -50,9 +50,9 @@ PASTEFIT_INLINE Lubrication<Real> lubrication(const ConstantsOf<Real>& k, Real o
   const Real narrowness = radius / gap, unit = alive * k.viscosity * radius;
   const Real along = unit * narrowness;
   const Real across = unit * fused(Real(8.0 / 15), detail::logarithm(narrowness), Real(0.9588));
-  const Real own_n = along * inverse_mass, own_t = Real(kSurfaceLightness) * across * inverse_mass;
-  const Real brake_n = larger(dt * larger(half * neighbour_damping, own_n), one);
-  const Real brake_t = larger(dt * larger(half * k.spin_damping_share * neighbour_damping, own_t), one);
+  const Real pair_n = along * inverse_mass, pair_t = Real(kSurfaceLightness) * across * inverse_mass;
+  const Real brake_n = larger(dt * larger(half * neighbour_damping, pair_n), one);
+  const Real brake_t = larger(dt * larger(half * k.spin_damping_share * neighbour_damping, pair_t), one);
   const auto begun = dt > Real(0.0);
   return {select(begun, along / brake_n, Real(0.0)), select(begun, across / brake_t, Real(0.0)), along + across};
 }

@@ -112,10 +112,10 @@ bool Lists::give_displacement_bounds(double duration) {
   pool_.each(blocks, [&](int b, int) {
     if (!exceeded_[b]) return;
     for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
-      const double own = std::clamp(norm(world_.particles.velocity[i].linear) * duration, least, most);
-      bounds_.own[i] = static_cast<float>(own);
+      const double bound = std::clamp(norm(world_.particles.velocity[i].linear) * duration, least, most);
+      bounds_.own[i] = static_cast<float>(bound);
       put_rounded(motion[i].position, bounds_.bounds[i].from);
-      bounds_.bounds[i].distance = static_cast<float>(own);
+      bounds_.bounds[i].distance = static_cast<float>(bound);
     }
   });
   in_two_rounds(pool_, blocks, [&](int b, int) {
@@ -124,11 +124,11 @@ bool Lists::give_displacement_bounds(double duration) {
     const Block& block = pairs.blocks[b];
     block.candidates.each(block.grains, [&](NeighbourList::Pair pair, std::int32_t i) {
       const std::int32_t j = pair.grain();
-      const auto make_room = [&](std::int32_t grain, std::int32_t other) {
+      const auto raise_bound = [&](std::int32_t grain, std::int32_t other) {
         bounds_.bounds[grain].distance = std::max(bounds_.bounds[grain].distance, bounds_.own[other]);
       };
-      if (first) make_room(i, j);
-      if (j < block.grains_end ? first : second) make_room(j, i);
+      if (first) raise_bound(i, j);
+      if (j < block.grains_end ? first : second) raise_bound(j, i);
     });
   });
   // Each grain of a candidate pair may use half of the skin.
@@ -152,8 +152,8 @@ void Lists::note_ways() {
   pool_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {
     for (std::int32_t i = world_.pairs.blocks[b].grains; i < world_.pairs.blocks[b].grains_end; ++i) {
       const DisplacementBound& bound = bounds_.bounds[i];
-      const double gone = norm(world_.particles.motion[i].position - vector_of(bound.from));
-      bounds_.way[i] = static_cast<float>((bound.distance + gone) * kRoundedUp);
+      const double moved = norm(world_.particles.motion[i].position - vector_of(bound.from));
+      bounds_.way[i] = static_cast<float>((bound.distance + moved) * kRoundedUp);
     }
   });
 }
@@ -162,8 +162,8 @@ Deepest Lists::select_pairs() {
   std::vector<Block>& blocks = world_.pairs.blocks;
   std::vector<Deepest> deepest(blocks.size());
   pool_.each(static_cast<int>(blocks.size()), [&](int b, int member) {
-    const bool next_strayed = b + 1 < static_cast<int>(blocks.size()) && exceeded_[b + 1];
-    if (!exceeded_[b] && !next_strayed) return;
+    const bool next_exceeded = b + 1 < static_cast<int>(blocks.size()) && exceeded_[b + 1];
+    if (!exceeded_[b] && !next_exceeded) return;
     deepest[b] = pastefit::select_pairs(world_.particles, world_.domain, blocks[b], world_.particles.count() + b,
                                         selections_[member], world_.reach(), bounds_, kernels_.find_nearness);
   });

@@ -107,8 +107,8 @@ void check_wall_contacts(const WallContacts& touching, const Ends& ends) {
   demand(touching.count >= 0 && touching.count <= touching.contacts.count, "a wall's list has another length");
   for (std::int32_t k = 0; k < touching.contacts.count; ++k) {
     const std::int32_t i = touching.contacts.first(k);
-    const bool own = i >= ends.begin && i < ends.end && (k == 0 || touching.contacts.first(k - 1) < i);
-    demand(k < touching.count ? own : ends.is_dummy(i), "a wall touches grains that its block does not have");
+    const bool listed = i >= ends.begin && i < ends.end && (k == 0 || touching.contacts.first(k - 1) < i);
+    demand(k < touching.count ? listed : ends.is_dummy(i), "a wall touches grains that its block does not have");
     check_memory(touching.contacts, k);
   }
 }

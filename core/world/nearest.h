@@ -73,8 +73,8 @@ PASTEFIT_INLINE BasicNearest<Real> nearest_on(const Ribs& ribs, const BasicVec3<
   const Real x = q.x - pitch * rounded_down(q.x / pitch + Real(0.5));  // from the middle of the nearest bar
   const Real half(0.5 * ribs.thickness);
   const Real low(std::min(ribs.height, 0.0)), high(std::max(ribs.height, 0.0));
-  const BasicVec3<Real> way{clamped(x, -half, half) - x, Real(0.0), clamped(q.z, low, high) - q.z};
-  return towards(way, {select(x > Real(0.0), Real(-1.0), Real(1.0)), Real(0.0), Real(0.0)});
+  const BasicVec3<Real> offset{clamped(x, -half, half) - x, Real(0.0), clamped(q.z, low, high) - q.z};
+  return towards(offset, {select(x > Real(0.0), Real(-1.0), Real(1.0)), Real(0.0), Real(0.0)});
 }
 
 /// True only if no point of the shape is within `range` of the point; cheaper than the nearest point.

@@ -10,8 +10,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr std::int32_t kGrainsPerBlock =
-    600;  // at least; small, so that a single displaced grain causes the selection of few others
+constexpr std::int32_t kGrainsPerBlock = 600;  // at least; small, so that one displaced grain affects few others
 
 double largest_of(const Particles& particles) {
   double largest = 0;
@@ -89,8 +88,7 @@ class Remembered {
   std::vector<Block>& blocks_;
   std::vector<std::int32_t> last_;   ///< by block: the largest lower index among its pairs
   std::vector<std::int32_t> first_;  ///< by the lower grain
-  std::vector<std::int32_t>
-      met_;  ///< by the upper grain: index of its pair with the current lower grain, if it has one
+  std::vector<std::int32_t> met_;    ///< by the upper grain: its pair with the current lower grain, if any
   std::vector<Known> known_;
 };
 

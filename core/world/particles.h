@@ -9,11 +9,10 @@ namespace pastefit {
 
 /// What a contact reads of a grain: one cache line, 64 bytes. Hot. Velocities are those of `Velocity`, rounded.
 struct alignas(64) Motion {
-  Vec3 position;           ///< [m]
-  double radius = 0;       ///< [m]
-  float velocity[3] = {};  ///< at the half step before `position` [m/s]
-  float damping_rate =
-      0;  ///< of its contacts at the last step: sum of c_n/m over the share of stability left by the springs [1/s]
+  Vec3 position;             ///< [m]
+  double radius = 0;         ///< [m]
+  float velocity[3] = {};    ///< at the half step before `position` [m/s]
+  float damping_rate = 0;    ///< sum of c_n/m of its contacts at the last step, over what springs leave of 1 [1/s]
   float spin[3] = {};        ///< angular velocity, at the half step before [rad/s]
   float rounded_radius = 0;  ///< [m]
 };

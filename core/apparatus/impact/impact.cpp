@@ -24,8 +24,8 @@ double constant_step(const Impact& test) {
     const double attraction =
         test.contact.cohesion_n.value_or(attraction_at_touch(test.contact.bridge, test.reference_radius_m));
     const double depth = std::pow(0.75 * attraction / (a.modulus * std::sqrt(a.radius)), 2.0 / 3.0);
-    const double way = depth + rupture_gap(test.contact.bridge, test.reference_radius_m);
-    const double work = attraction * way + drawn_in(test.contact, pair, a.radius);
+    const double distance = depth + rupture_gap(test.contact.bridge, test.reference_radius_m);
+    const double work = attraction * distance + drawn_in(test.contact, pair, a.radius);
     const double drawn = std::sqrt(2 * work / a.mass + test.gravity_m_s2 * a.radius);
     const double speed = norm(a.velocity) + drawn;
     if (speed > 0) shortest = std::min(shortest, hertz_contact_time(a, speed));

@@ -96,8 +96,8 @@ std::vector<ReadingKind> reading_kinds(const ShearCell& test) {
   constexpr double solid = 0.9;        // of the cell; denser is impossible for a bed of grains
   constexpr double largest_ratio = 5;  // of shear and normal stress; friction gives up to 1, cohesion adds to it
   const double full_g = 1e3 * solid * test.bulk_density_kg_m3 * filled_volume_m3(test);
-  const double fill_mm = 1e3 * test.fill_height_m, way_mm = 1e3 * test.final_displacement_m;
-  const ReadingRange mass{0, full_g}, share{0, 1}, height{0, 1.5 * fill_mm}, way{0, way_mm};
+  const double fill_mm = 1e3 * test.fill_height_m, travel_mm = 1e3 * test.final_displacement_m;
+  const ReadingRange mass{0, full_g}, share{0, 1}, height{0, 1.5 * fill_mm}, travel{0, travel_mm};
   const ReadingRange stress{0, largest_ratio * test.normal_stress_pa};
   // clang-format off
   return {
@@ -113,7 +113,7 @@ std::vector<ReadingKind> reading_kinds(const ShearCell& test) {
     ReadingKind{.name = "shear.height_mm", .key = "shear.height_mm", .measure = "shear.height_mm", .stage = sheared,
                 .possible = height, .worst_miss = fill_mm, .advised = true, .checked = true},
     ReadingKind{.name = "shear.stress_error_pa", .key = "", .measure = "", .stage = sheared, .possible = stress},
-    ReadingKind{.name = "shear.steady_from_mm", .key = "", .measure = "", .stage = sheared, .possible = way}};
+    ReadingKind{.name = "shear.steady_from_mm", .key = "", .measure = "", .stage = sheared, .possible = travel}};
   // clang-format on
 }
 

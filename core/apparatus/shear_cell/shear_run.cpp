@@ -113,8 +113,8 @@ class Shearing {
   /// Presses the lid until the bed rests under its load.
   std::optional<Failure> press_lid_on() {
     const auto drive = [this](World&, double dt) { press_lid(dt); };
-    const double way = lid_height() - test_.fill_height_m + test_.lid_ribs.height_m;
-    if (auto problem = runner_.settle({"press", drive}, kCellRestCap, way / test_.lid_speed_m_s)) return problem;
+    const double travel = lid_height() - test_.fill_height_m + test_.lid_ribs.height_m;
+    if (auto problem = runner_.settle({"press", drive}, kCellRestCap, travel / test_.lid_speed_m_s)) return problem;
     pressed_height_ = lid_height();
     return {};
   }

@@ -72,11 +72,11 @@ ContactModel filling_model(const SlumpTest& test, const RunOptions& options) {
 Wall make_wall(std::string name, Shape shape, const SlumpTest& test, const RunOptions& options) {
   // Smooth: friction at a wall would carry the fill, which would sink when the test's own wall replaces it.
   const WallContact shared{1e9, 0.3, 0.2, 0, 0, 0};
-  const WallContact& own = name == "floor" ? test.table_wall : test.mould_wall;
+  const WallContact& of_test = name == "floor" ? test.table_wall : test.mould_wall;
   Wall wall;
   wall.name = std::move(name);
   wall.shape = shape;
-  wall.pair = wall_pair(filling_model(test, options), options.own_fill ? own : shared, test.grains.radius_m);
+  wall.pair = wall_pair(filling_model(test, options), options.own_fill ? of_test : shared, test.grains.radius_m);
   return wall;
 }
 

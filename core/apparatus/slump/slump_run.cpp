@@ -67,10 +67,10 @@ class MouldLift {
              (std::get<Shell>(mould.shape).base.z > highest_point(world.particles) || lost());
     };
     const auto untouched = [&](const World&) { return norm(mould.force) == 0; };
-    const double own_height = test_.mould.height_m / test_.lift_velocity_m_s;
+    const double rise_s = test_.mould.height_m / test_.lift_velocity_m_s;
     auto problem = options_.fixed_wait_s
-                       ? runner_.run({"step1.lift", time_flow(), look_whether_lost()}, own_height)
-                       : runner_.run_until_rest({"step1.lift", time_flow(), clear}, 1.5 * own_height, untouched);
+                       ? runner_.run({"step1.lift", time_flow(), look_whether_lost()}, rise_s)
+                       : runner_.run_until_rest({"step1.lift", time_flow(), clear}, 1.5 * rise_s, untouched);
     if (problem) return problem;
     const double rim_m = std::get<Shell>(mould.shape).base.z;
     const bool holds = norm(mould.force) > 0;

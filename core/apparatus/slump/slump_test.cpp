@@ -23,10 +23,10 @@ double narrower_radius_m(const Mould& mould) {
 }
 
 double fall_time_s(const DropPlate& plate) {
-  const double way = plate.motion == TableMotion::hinged
-                         ? plate.length_m * std::asin(plate.lift_height_m / plate.length_m) / 1.5
-                         : plate.lift_height_m;
-  return std::sqrt(2 * way / kGravity);
+  const double fall_m = plate.motion == TableMotion::hinged
+                            ? plate.length_m * std::asin(plate.lift_height_m / plate.length_m) / 1.5
+                            : plate.lift_height_m;
+  return std::sqrt(2 * fall_m / kGravity);
 }
 
 double moving_time_s(const DropPlate& plate) {
