@@ -1,5 +1,5 @@
 // Included once by each of kernels_{sse2,avx2,avx512}.cpp, which name the instruction set.
-// Everything here is in that namespace or is inlined: see core/laws/pack.h.
+// Everything here lives in that namespace or is inlined: see core/laws/pack.h.
 
 #include <algorithm>
 
@@ -81,7 +81,7 @@ Moved move_grains(const MoveTask& task) {
     const Row lightness(inverse_mass), load = widened(acting.torque);
 
     // Next to the torque is the stiffness; next to the velocity the damping rate, the sum of c over the mass and over
-    // the room that the springs leave.
+    // the margin of stability that the springs leave.
     const Row stiffness = lightness * load;
     stiffest = larger(stiffness, stiffest);
     const Row room = larger(Row(1.0) - springs * stiffness, least);
