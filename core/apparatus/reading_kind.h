@@ -29,12 +29,12 @@ struct Lack {
 /// Everything about one reading, in one row: its key in the laboratory file, its name in the simulation, and how the
 /// search compares them. The table of a test is beside its apparatus, because a new reading needs new code there.
 struct ReadingKind {
-  std::string_view name;               ///< of the simulated reading, with stage and unit, e.g. "step1.height_mm"
-  std::string_view key;                ///< in laboratory files; empty: not measured
-  std::string_view measure;            ///< simulated reading to compare with; differs from `name` for a slump
-  int stage = 0;                       ///< of the test, counted from 0
-  ReadingRange possible;               ///< plausible measured values, with a margin for the apparatus
-  std::string_view bounded_by{};       ///< place in files of the dimension that gives the largest value; else empty
+  std::string_view name;          ///< of the simulated reading, with stage and unit, e.g. "step1.height_mm"
+  std::string_view key;           ///< in laboratory files; empty: not measured
+  std::string_view measure;       ///< simulated reading to compare with; differs from `name` for a slump
+  int stage = 0;                  ///< of the test, counted from 0
+  ReadingRange possible;          ///< plausible measured values, with a margin for the apparatus
+  std::string_view bounded_by{};  ///< in messages: the dimension in files that limits its largest value; else empty
   std::optional<double> worst_miss{};  ///< largest possible deviation of a simulation, if bounded
   std::optional<double> less_than{};   ///< if `measure` is another reading: it equals this minus the measured value
   std::array<Ceiling, 2> ceilings{};   ///< readings that are never smaller

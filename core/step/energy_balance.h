@@ -22,7 +22,7 @@ struct EnergyBalance {
   double dissipation_rolling = 0;
   double dissipation_bridges = 0;  ///< work of separation of new bridges, and of new adhesive contacts
   double dissipation_viscous = 0;  ///< of the liquid between grains
-  double dissipation_plastic = 0;  ///< of plastic overlap
+  double dissipation_plastic = 0;  ///< by plastic deformation of contacts
   double dissipation_drag = 0;     ///< in phases with drag
   double work_of_walls = 0;        ///< on the grains
   double effort_of_walls = 0;      ///< sum of its absolute values

@@ -15,7 +15,7 @@ constexpr double kSmallestBound = 0.02;  // of the mean radius
 constexpr double kLargestBound = 0.2;
 constexpr double kNearlyUsed = 0.6;      // of a displacement bound
 constexpr double kRoundedUp = 1 + 1e-6;  // a float is not less than the double
-constexpr float kLeastShare = 0.5;  // least share of its displacement bound for which a grain needs room in the skin
+constexpr float kLeastShare = 0.5;       // share of its displacement bound that must fit into a grain's remaining skin
 
 }  // namespace
 

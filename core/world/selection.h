@@ -28,8 +28,8 @@ struct Deepest {
 namespace nearness {
 enum Bit {
   touching,  ///< they overlap now
-  near,      ///< they may stay in contact, if they are
-  held,      ///< they may stay in contact if they are
+  near,      ///< they may touch
+  held,      ///< they may stay in contact, if they are
   forming,   ///< a bridge may form
   bridged,   ///< may be within the reach of a living bridge
   kept       ///< from this bit on: `NeighbourList::Kept`
