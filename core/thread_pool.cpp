@@ -2,6 +2,8 @@
 
 #include <system_error>
 
+#include "core/target.h"
+
 namespace pastefit {
 
 namespace {
@@ -13,7 +15,7 @@ template <class T>
 void wait_for_change(const std::atomic<T>& value, T old) {
   for (int poll = 0; poll < kPolls; ++poll) {
     if (value.load(std::memory_order_acquire) != old) return;
-    __builtin_ia32_pause();
+    PASTEFIT_PAUSE();
   }
   value.wait(old, std::memory_order_acquire);
 }

@@ -15,12 +15,14 @@
 #include <thread>
 #include <utility>
 
+#include "core/target.h"
+
 namespace pastefit {
 
 std::string machine_type() {
   utsname name{};
   std::string out = uname(&name) == 0 ? name.machine : "unknown";
-#if defined(__x86_64__)
+#if PASTEFIT_X86
   if (__builtin_cpu_supports("fma")) out += " fma";
 #endif
   return out + " glibc " + gnu_get_libc_version();

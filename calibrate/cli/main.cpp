@@ -30,7 +30,7 @@ int report(const Refusal& refusal) {
 /// Contact kernels used by runs.
 std::string kernels_note() {
   const std::string_view set = kernels_of_this_processor().instruction_set;
-  const bool plain = set == sse2::kernels.instruction_set;
+  const bool plain = set == "SSE2";
   return "contact kernels: " + std::string(set) +
          (plain ? " (slower than AVX2 and AVX-512, and with other last bits)" : "");
 }

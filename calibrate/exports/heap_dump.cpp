@@ -88,7 +88,7 @@ class DumpReader {
     grains_.clear();
     columns_ = words.size() - 2;
     for (std::size_t i = 0; i < kDumpColumns.size(); ++i) {
-      const auto at = std::ranges::find(words.begin() + 2, words.end(), kDumpColumns[i]);
+      const auto at = std::find(words.begin() + 2, words.end(), kDumpColumns[i]);
       if (at == words.end())
         fault("lacks the column " + std::string(kDumpColumns[i]), kDumpRemedy);
       else

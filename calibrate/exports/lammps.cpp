@@ -41,9 +41,10 @@ std::string note_of_granular(const ExportScene& scene) {
 }
 
 /// Laws of the engine and their names; calibrate/CMakeLists.txt installs them beside the style.
-constexpr std::array<std::array<std::string_view, 2>, 6> kLaws{{{"core/laws", ".h"},
+constexpr std::array<std::array<std::string_view, 2>, 7> kLaws{{{"core/laws", ".h"},
                                                                 {"core/laws", ".cpp"},
                                                                 {"core", "/inline.h"},
+                                                                {"core", "/target.h"},
                                                                 {"core", "/vec3.h"},
                                                                 {"calibrate/base", "/field.h"},
                                                                 {"calibrate/laboratory", "/names.h"}}};

@@ -22,7 +22,7 @@ const std::string kFormat = "pastefit-checkpoint-1";
 
 /// SSE2 gives other bits than the other instruction sets.
 bool rounds_once() {
-  return kernels_of_this_processor().instruction_set != sse2::kernels.instruction_set;
+  return kernels_of_this_processor().instruction_set != four_lanes::kernels.instruction_set;
 }
 
 std::string name_of_run(const Test& test, const RunOptions& options) {

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <immintrin.h>
-
 #include <cmath>
 #include <cstdint>
 
+#include "core/target.h"
 #include "core/vec3.h"
 
 namespace pastefit {
@@ -22,13 +21,15 @@ struct LaneTypes;
 PASTEFIT_LANES(double, long long, 2)
 PASTEFIT_LANES(double, long long, 4)
 PASTEFIT_LANES(double, long long, 8)
+PASTEFIT_LANES(float, int, 2)
 PASTEFIT_LANES(float, int, 4)
 PASTEFIT_LANES(float, int, 8)
 PASTEFIT_LANES(float, int, 16)
 #undef PASTEFIT_LANES
 
 /// W numbers that are computed on together. Only operations that IEEE 754 rounds correctly are offered (+ - * / sqrt,
-/// a b + c rounded once, comparisons). SSE2 has no `fused` of one rounding: its bits are its own.
+/// a b + c rounded once, comparisons). Packs of 16 bytes round `fused` twice, because SSE2 and WebAssembly cannot do it
+/// otherwise: their bits differ from those of wider packs, and are the same on every type of processor.
 template <class Number, int W>
 struct Pack {
   using Lanes = typename LaneTypes<Number, W>::Lanes;
@@ -74,8 +75,13 @@ PASTEFIT_INLINE Pack<Number, W> square_root(Pack<Number, W> a) {
   if constexpr (sizeof(a) == 32 && sizeof(Number) == 8) return Pack<Number, W>(_mm256_sqrt_pd(a.v));
   if constexpr (sizeof(a) == 32 && sizeof(Number) == 4) return Pack<Number, W>(_mm256_sqrt_ps(a.v));
 #endif
+#if PASTEFIT_X86
   if constexpr (sizeof(a) == 16 && sizeof(Number) == 8) return Pack<Number, W>(_mm_sqrt_pd(a.v));
   if constexpr (sizeof(a) == 16 && sizeof(Number) == 4) return Pack<Number, W>(_mm_sqrt_ps(a.v));
+#else
+  for (int lane = 0; lane < W; ++lane) a.v[lane] = std::sqrt(a.v[lane]);  // one instruction, with optimisation
+  return a;
+#endif
 }
 
 template <class Number, int W>
@@ -120,7 +126,13 @@ PASTEFIT_INLINE bool any(Mask mask) {
 #ifdef __AVX__
   if constexpr (sizeof(Mask) == 32) return _mm256_movemask_ps(reinterpret_cast<__m256>(mask)) != 0;
 #endif
+#if PASTEFIT_X86
   if constexpr (sizeof(Mask) == 16) return _mm_movemask_ps(reinterpret_cast<__m128>(mask)) != 0;
+#else
+  using Halves = typename LaneTypes<double, 2>::Mask;
+  const Halves halves = reinterpret_cast<Halves>(mask);
+  return (halves[0] | halves[1]) != 0;
+#endif
 }
 
 // The same vocabulary on plain doubles, so that a law is written once.

@@ -9,9 +9,9 @@ namespace pastefit {
 
 /// Transposes W packs of W lanes in place: what was lane b of pack a becomes lane a of pack b.
 PASTEFIT_INLINE void transpose(Doubles<2> (&p)[2]) {
-  const __m128d a = p[0].v, b = p[1].v;
-  p[0].v = _mm_unpacklo_pd(a, b);
-  p[1].v = _mm_unpackhi_pd(a, b);
+  const Doubles<2>::Lanes a = p[0].v, b = p[1].v;
+  p[0].v = __builtin_shufflevector(a, b, 0, 2);
+  p[1].v = __builtin_shufflevector(a, b, 1, 3);
 }
 
 #ifdef __AVX__
@@ -27,12 +27,14 @@ PASTEFIT_INLINE void transpose(Doubles<4> (&p)[4]) {
 
 /// Quads of W rows to packs of their columns, and back.
 PASTEFIT_INLINE void transpose(Singles<4> (&p)[4]) {
-  const __m128 low01 = _mm_unpacklo_ps(p[0].v, p[1].v), high01 = _mm_unpackhi_ps(p[0].v, p[1].v);
-  const __m128 low23 = _mm_unpacklo_ps(p[2].v, p[3].v), high23 = _mm_unpackhi_ps(p[2].v, p[3].v);
-  p[0].v = _mm_movelh_ps(low01, low23);
-  p[1].v = _mm_movehl_ps(low23, low01);
-  p[2].v = _mm_movelh_ps(high01, high23);
-  p[3].v = _mm_movehl_ps(high23, high01);
+  const auto low01 = __builtin_shufflevector(p[0].v, p[1].v, 0, 4, 1, 5);
+  const auto high01 = __builtin_shufflevector(p[0].v, p[1].v, 2, 6, 3, 7);
+  const auto low23 = __builtin_shufflevector(p[2].v, p[3].v, 0, 4, 1, 5);
+  const auto high23 = __builtin_shufflevector(p[2].v, p[3].v, 2, 6, 3, 7);
+  p[0].v = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+  p[1].v = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
+  p[2].v = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+  p[3].v = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
 }
 
 #ifdef __AVX__
@@ -65,7 +67,7 @@ PASTEFIT_INLINE void transpose(Singles<16> (&p)[4]) {
 template <int W, class Row>
 PASTEFIT_INLINE void read_quads(Row row, Singles<W> (&columns)[4]) {
   for (int k = 0; k < 4; ++k) {
-    if constexpr (W == 4) columns[k].v = _mm_load_ps(row(k));
+    if constexpr (W == 4) columns[k] = Singles<4>::load(row(k));
 #ifdef __AVX__
     if constexpr (W == 8) columns[k].v = _mm256_set_m128(_mm_load_ps(row(k + 4)), _mm_load_ps(row(k)));
 #endif
@@ -160,7 +162,13 @@ PASTEFIT_INLINE void read_differences(From from, To to, Doubles<W> (&columns)[4]
 
 /// W doubles in two packs, rounded.
 PASTEFIT_INLINE Singles<4> narrow(Doubles<2> first, Doubles<2> second) {
+#if PASTEFIT_X86
   return Singles<4>(_mm_movelh_ps(_mm_cvtpd_ps(first.v), _mm_cvtpd_ps(second.v)));
+#else
+  using Half = LaneTypes<float, 2>::Lanes;
+  return Singles<4>(__builtin_shufflevector(__builtin_convertvector(first.v, Half),
+                                            __builtin_convertvector(second.v, Half), 0, 1, 2, 3));
+#endif
 }
 #ifdef __AVX__
 PASTEFIT_INLINE Singles<8> narrow(Doubles<4> first, Doubles<4> second) {
@@ -177,7 +185,12 @@ PASTEFIT_INLINE Singles<16> narrow(Doubles<8> first, Doubles<8> second) {
 /// The first or second half of a pack in doubles.
 template <int half>
 PASTEFIT_INLINE Doubles<2> widened(Singles<4> a) {
+#if PASTEFIT_X86
   return Doubles<2>(_mm_cvtps_pd(half == 0 ? a.v : _mm_movehl_ps(a.v, a.v)));
+#else
+  return Doubles<2>(
+      __builtin_convertvector(__builtin_shufflevector(a.v, a.v, 2 * half, 2 * half + 1), Doubles<2>::Lanes));
+#endif
 }
 #ifdef __AVX__
 template <int half>

@@ -1,4 +1,4 @@
-// Included once by each of kernels_{sse2,avx2,avx512}.cpp, which name the instruction set and the pack's width.
+// Included once by each of kernels_{four_lanes,avx2,avx512}.cpp, which name the instruction set and the pack's width.
 // Everything here lives in that namespace or is inlined: see core/laws/pack.h.
 
 #include <utility>

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/target.h"
+
 namespace pastefit {
 
 namespace {
@@ -22,12 +24,14 @@ std::string plain_name(const KernelTable& kernels) {
 }  // namespace
 
 std::vector<const KernelTable*> kernels_this_processor_runs() {
+  std::vector<const KernelTable*> tables{&four_lanes::kernels};
+#if PASTEFIT_X86
   __builtin_cpu_init();
-  std::vector<const KernelTable*> tables{&sse2::kernels};
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return tables;
   tables.insert(tables.begin(), &avx2::kernels);
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
     tables.insert(tables.begin(), &avx512::kernels);
+#endif
   return tables;
 }
 

@@ -112,9 +112,11 @@ struct KernelTable {
   std::string_view instruction_set;
 };
 
-namespace sse2 {
+/// Of every processor: vectors of 16 bytes.
+namespace four_lanes {
 extern const KernelTable kernels;
 }
+/// Of x86-64 only.
 namespace avx2 {
 extern const KernelTable kernels;
 }
@@ -129,7 +131,8 @@ const KernelTable& kernels_of_this_processor();
 
 /// Chooses the kernels of runs whose `StepOptions` name none: those of "sse2", "avx2" or "avx512" instead of the widest
 /// that this processor runs. Returns false, and changes nothing, if it does not run them. Requirement: no run is under
-/// way. The bits of SSE2 differ from those of the others (core/README.md, Determinism).
+/// way. Other processors than x86-64 have one word: "neon" on AArch64, "simd128" in WebAssembly. The bits of four lanes
+/// differ from those of AVX2 and AVX-512 (core/README.md, Determinism).
 bool use_kernels(std::string_view instruction_set);
 
 /// The words that `use_kernels` takes on this processor, the widest first: "avx512, avx2, sse2".

@@ -1,4 +1,4 @@
-// Included once by each of kernels_{sse2,avx2,avx512}.cpp, which name the instruction set.
+// Included once by each of kernels_{four_lanes,avx2,avx512}.cpp, which name the instruction set.
 // Everything here lives in that namespace or is inlined: see core/laws/pack.h.
 
 #include <algorithm>

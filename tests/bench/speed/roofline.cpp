@@ -150,7 +150,7 @@ double triad_bytes_per_second() {
 MachineLimits measure_machine() {
   MachineLimits m;
   const KernelTable& kernels = kernels_of_this_processor();
-  m.lanes = &kernels == &sse2::kernels ? 4 : &kernels == &avx2::kernels ? 8 : 16;
+  m.lanes = &kernels == &four_lanes::kernels ? 4 : &kernels == &avx2::kernels ? 8 : 16;
   const auto simple = m.lanes == 16 ? avx512_simple : m.lanes == 8 ? avx2_simple : sse2_simple;
   const auto roots = m.lanes == 16 ? avx512_roots : m.lanes == 8 ? avx2_roots : sse2_roots;
   m.instruction_set = kernels.instruction_set;
