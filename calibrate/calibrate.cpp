@@ -1,15 +1,17 @@
 #include "calibrate/calibrate.h"
 
 #include <algorithm>
-#include <span>
+#include <deque>
+#include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "calibrate/calibrator.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/evaluate/cost.h"
+#include "calibrate/evaluate/simulation_pool.h"
 #include "calibrate/evaluate/study_scoring.h"
-#include "calibrate/inference/description.h"
-#include "calibrate/inference/examination.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 #include "calibrate/study/tolerance.h"
@@ -17,13 +19,6 @@
 namespace pastefit {
 
 namespace {
-
-/// Search options without the simulations that the held-out tests need after the search.
-SearchOptions options_of_the_search(const Study& study) {
-  SearchOptions options = study.search;
-  options.budget_simulations -= hold_out_simulations(study, study.search);
-  return options;
-}
 
 /// Reasons why `coarse_first` cannot be used.
 Faults coarse_faults(const Study& study) {
@@ -41,53 +36,46 @@ Faults coarse_faults(const Study& study) {
   return {};
 }
 
-std::vector<std::string> names_of_readings(const Study& study) {
-  std::vector<std::string> names;
-  for (const StudyReading& reading : readings_of(study)) names.push_back(reading.name);
-  return names;
+PoolOptions pool_of(const CalibrateOptions& options, const CalibrateCallbacks& callbacks) {
+  PoolOptions pool;
+  pool.threads = options.threads;
+  pool.wall_budget_s = options.wall_budget_s;
+  pool.core_budget_s = options.core_budget_s;
+  pool.stop = options.stop;
+  pool.pulse = callbacks.pulse;
+  pool.run_observer = callbacks.run_observer;
+  pool.engine = options.engine;
+  return pool;
 }
 
-std::vector<std::string> names_of_free_parameters(const Study& study) {
-  std::vector<std::string> names;
-  for (const Parameter& parameter : study.parameters)
-    if (parameter.free) names.push_back(parameter.name);
-  return names;
-}
+/// Simulations that a pool runs for a calibrator.
+class UnderWay {
+ public:
+  UnderWay(SimulationPool& pool, const Study& observed) : pool_(pool), observed_(observed) {}
 
-EvaluatorOptions evaluator_of(const Study& study, const CalibrateOptions& options,
-                              const CalibrateCallbacks& callbacks) {
-  EvaluatorOptions evaluator;
-  evaluator.threads = options.threads;
-  evaluator.budget = study.search.budget_simulations;
-  evaluator.wall_budget_s = options.wall_budget_s;
-  evaluator.core_budget_s = options.core_budget_s;
-  evaluator.stop = options.stop;
-  evaluator.observer = callbacks.evaluated;
-  evaluator.pulse = callbacks.pulse;
-  evaluator.run_observer = callbacks.run_observer;
-  evaluator.engine = options.engine;
-  return evaluator;
-}
+  void begin(const Simulation& one) {
+    const bool observed = one.study.get() == &observed_ && !one.may_end_early;
+    runs_.push_back({one, pool_.begin(one, observed)});
+  }
+  /// Waits for the first, and ingests all that are over. The pool keeps the fault of one that cannot be stored.
+  void await(Calibrator& calibrator) {
+    if (runs_.empty()) return;
+    (void)SimulationPool::wait(*runs_.front().run);
+    const auto over = std::ranges::stable_partition(runs_, [](const One& one) { return !one.run->is_over(); });
+    for (const auto& [simulation, run] : over)
+      if (const auto answer = SimulationPool::wait(*run)) (void)calibrator.ingest(simulation, *answer);
+    runs_.erase(over.begin(), over.end());
+  }
 
-/// Effects of unstated test conditions on the readings of a confirmed material.
-std::vector<ConditionEffect> effects_on(const Calibration& found, const Study& study, Store& store,
-                                        const EvaluatorOptions& evaluator, const SimulationObjective& objective,
-                                        EvaluationCounts& counts) {
-  if (found.status != CalibrationStatus::confirmed || study.search.examination_simulations == 0) return {};
-  const auto simulate = [&](const Study& changed, const UnitPoint& point, std::span<const std::uint64_t> packings,
-                            std::size_t test) {
-    if (objective.stop_requested()) return std::vector<StoredEvaluation>{};
-    SimulationObjective other(changed, store, evaluator);
-    auto runs = other.predict(point, packings, test);
-    counts += other.counts();
-    if (objective.stop_requested()) runs.clear();  // some runs were cut off
-    return runs;
+ private:
+  struct One {
+    Simulation simulation;
+    std::shared_ptr<SimulationPool::Run> run;
   };
-  const auto& fresh = found.confirmation.packings;
-  return condition_effects(study, found.confirmation.point,
-                           std::span(fresh).first(std::min(fresh.size(), condition_packings)),
-                           objective.simulations_left(), simulate);
-}
+  SimulationPool& pool_;
+  const Study& observed_;
+  std::deque<One> runs_;
+};
 
 }  // namespace
 
@@ -102,40 +90,19 @@ Faults validate(const Study& study, const CalibrateOptions& options) {
 Result<CalibrationResult> calibrate(const Study& study, Store& store, const CalibrateOptions& options,
                                     const CalibrateCallbacks& callbacks) {
   if (auto faults = validate(study, options); !faults.empty()) return faults;
-  const SearchOptions& asked = study.search;
-  EvaluatorOptions evaluator = evaluator_of(study, options, callbacks);
-  SimulationObjective objective(study, store, evaluator);
-  evaluator.observer = {};
-  evaluator.run_observer = nullptr;
-  const Study coarse_study = with_coarse_grains(study);
-  SimulationObjective coarse(coarse_study, store, evaluator);
-
-  CalibrationResult result;
-  result.search = search(objective, options_of_the_search(study), callbacks.progress, names_of_readings(study),
-                         names_of_free_parameters(study), asked.coarse_first ? &coarse : nullptr);
-  const Calibration& found = result.search;
-  const bool any = found.best.point.size() > 0 && !found.best.failed;
-  if (any) {
-    if (callbacks.progress)
-      callbacks.progress(Progress{"examination", 0, asked.budget_simulations, found.best.error, ""});
-    predict_hold_outs(study, found, objective);
-    // Readings out of reach determine no parameter; an interruption should end soon.
-    const bool stopped = options.stop && *options.stop;
-    if (found.status != CalibrationStatus::out_of_reach && !stopped) {
-      const auto effects = effects_on(found, study, store, evaluator, objective, result.counts);
-      const int spent = (result.counts.simulated + result.counts.answered) / objective.simulations_each();
-      result.inference =
-          examine(study, objective, store, found,
-                  std::min(asked.examination_simulations, objective.budget_left() - spent), asked.seed, effects);
-    }
+  StudyAnswers answers(std::shared_ptr<const Study>(std::shared_ptr<void>(), &study), store, options.study_file);
+  Calibrator calibrator(answers, callbacks.progress);
+  SimulationPool pool(store, pool_of(options, callbacks));
+  UnderWay under_way(pool, study);
+  while (!calibrator.finished()) {
+    if (pool.stop_requested()) calibrator.stop(!options.stop || !*options.stop);
+    const auto simulations = calibrator.suggest(std::numeric_limits<std::size_t>::max());
+    for (const Simulation& one : simulations) under_way.begin(one);
+    if (simulations.empty()) under_way.await(calibrator);
+    if (callbacks.evaluated) callbacks.evaluated(calibrator.counts());
   }
-  if (auto faults = objective.store_faults(); !faults.empty()) return faults;
-  result.counts += objective.counts();
-  if (!any) return result;
-  result.card =
-      card_of(study, found, asked, baselines_of(study, shown_of(found), store), result.counts, options.study_file);
-  if (result.inference) result.card->inference = card_inference(*result.inference);
-  return result;
+  if (auto faults = pool.store_faults(); !faults.empty()) return faults;
+  return calibrator.result();
 }
 
 }  // namespace pastefit

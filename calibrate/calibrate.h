@@ -2,14 +2,10 @@
 
 #include <atomic>
 #include <functional>
-#include <optional>
 #include <string>
 
-#include "calibrate/card/card.h"
-#include "calibrate/evaluate/evaluator.h"
-#include "calibrate/inference/inference.h"
+#include "calibrate/calibrator.h"
 #include "calibrate/laboratory/engine.h"
-#include "calibrate/search/search.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/study.h"
 #include "core/result.h"
@@ -34,23 +30,13 @@ struct CalibrateCallbacks {
   RunObserver* run_observer = nullptr;  ///< sees the simulations that run to their end
 };
 
-/// Result of a calibration.
-struct CalibrationResult {
-  Calibration search;
-  EvaluationCounts counts;
-  std::optional<Card> card;            ///< none if no candidate could be simulated
-  std::optional<Inference> inference;  ///< none if the readings are out of reach, or after an interruption
-};
-
 /// Returns the reasons why the study cannot be calibrated on this machine, with places in the study file; empty if it
 /// can.
 Faults validate(const Study& study, const CalibrateOptions& options);
 
-/// Calibrates: searches (`search`), predicts the held-out tests, examines which other materials fit as well, and makes
-/// the card. All of this together uses at most `study.search.budget_simulations`. Every simulation is stored before it
-/// is used. Stored simulations are not repeated, so an interrupted calibration continues where it stopped. Requirement:
-/// the store was opened for this program and the inputs of the study. Errors: those of `validate`, before any
-/// simulation; the store cannot write an evaluation.
+/// Calibrates on this machine: a `Calibrator` whose simulations a pool runs. Requirement: the store was opened for this
+/// program and the inputs of the study. Errors: those of `validate`, before any simulation; the store cannot write an
+/// evaluation.
 Result<CalibrationResult> calibrate(const Study& study, Store& store, const CalibrateOptions& options = {},
                                     const CalibrateCallbacks& callbacks = {});
 

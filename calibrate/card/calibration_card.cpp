@@ -148,23 +148,12 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
                  options.seed,
                  calibration.search.packings,
                  options.budget_simulations,
-                 counts.simulated + counts.answered,
+                 counts.known(),
                  {},
                  calibration.coarse_simulations};
   for (const auto& [reason, count] : counts.failures) card.search.failures[std::string(name_of(reason))] = count;
   card.provenance = {study_file, study.hash, baselines.at(0).program};
   return card;
-}
-
-void predict_hold_outs(const Study& study, const Calibration& calibration, SimulationObjective& objective) {
-  const bool fresh = calibration.confirmation.point.size() > 0 && !calibration.confirmation.failed;
-  if (!fresh) return;
-  for (const auto test : tests_of(study, true))
-    objective.predict(calibration.confirmation.point, calibration.confirmation.packings, test);
-}
-
-int hold_out_simulations(const Study& study, const SearchOptions& options) {
-  return static_cast<int>(tests_of(study, true).size()) * options.confirmation_packings;
 }
 
 }  // namespace pastefit

@@ -4,17 +4,10 @@
 #include <vector>
 
 #include "calibrate/card/card.h"
-#include "calibrate/evaluate/evaluator.h"
+#include "calibrate/evaluate/simulation.h"
 #include "calibrate/search/search.h"
 
 namespace pastefit {
-
-/// Simulates the confirmed material in the held-out tests, on the packings of its confirmation. It runs after the
-/// search, so that these readings cannot have been fitted. Does nothing without a confirmation.
-void predict_hold_outs(const Study& study, const Calibration& calibration, SimulationObjective& objective);
-
-/// Simulations of this prediction, reserved from the search.
-int hold_out_simulations(const Study& study, const SearchOptions& options);
 
 /// Response that a card reports: the confirmation, or the best candidate if there is none.
 const Response& shown_of(const Calibration& calibration);

@@ -108,7 +108,7 @@ WorkAhead work_ahead(const Study& study) {
   const SearchOptions& search = study.search;
   const int each = static_cast<int>(tests_of(study, false).size());
   return {search.budget_simulations, search.screening * each, search.confirmation_packings * each,
-          search.examination_simulations * each + hold_out_simulations(study, search)};
+          search.examination_simulations * each + hold_out_simulations(study)};
 }
 
 int run_calibrate(const CalibrateArguments& options) {

@@ -124,7 +124,7 @@ ProgressLine::ProgressLine(const WorkAhead& work, const ErrorUnit& unit)
 void ProgressLine::show(const Progress& progress) {
   const std::lock_guard lock(mutex_);
   const bool new_phase = progress.phase != phase_;
-  if (new_phase) done_before_ = done();
+  if (new_phase) done_before_ = counts_.known();
   phase_ = progress.phase;
   best_error_ = progress.best_error;
   line_.look([this] { return text(); }, new_phase);
@@ -145,14 +145,14 @@ void ProgressLine::look() {
 std::string ProgressLine::time_left() const {
   const double elapsed = line_.gone_s();
   if (counts_.simulated == 0 || elapsed <= 0) return "";
-  const int in_phase = done() - done_before_;
-  const int budget = std::max(0, work_.budget - done());
+  const int in_phase = counts_.known() - done_before_;
+  const int budget = std::max(0, work_.budget - counts_.known());
   int least = work_.examination, most = budget;
   if (phase_ == "examination")
     least = most = std::clamp(work_.examination - in_phase, 0, budget);
   else
     least += phase_ == "confirmation" ? std::max(0, work_.confirmation - in_phase) : work_.confirmation;
-  if (phase_ == "screening") least += std::max(0, work_.screening - done());
+  if (phase_ == "screening") least += std::max(0, work_.screening - counts_.known());
   const double each_s = elapsed / counts_.simulated;
   return range_of_time(std::min(least, most) * each_s, most * each_s) + " left";
 }
@@ -161,7 +161,8 @@ std::string ProgressLine::text() const {
   int failed = 0;
   for (const auto& [reason, count] : counts_.failures) failed += count;
   std::string line =
-      fitted({format("%s %d of %d%s", phase_.c_str(), done(), work_.budget, line_.is_terminal() ? "" : " simulations"),
+      fitted({format("%s %d of %d%s", phase_.c_str(), counts_.known(), work_.budget,
+                     line_.is_terminal() ? "" : " simulations"),
               best_error_ < 0 ? "no error yet" : "error " + unit_.words(best_error_, "%.2f"),
               format("%.0f s gone", line_.gone_s()), time_left(), failed > 0 ? format("%d failed", failed) : "",
               counts_.answered > 0 ? format("%d known", counts_.answered) : ""});
@@ -174,7 +175,7 @@ std::string ProgressLine::bar(std::size_t columns) const {
   constexpr std::size_t kMost = 24, kLeast = 6, kFrame = 3;  // a blank and the brackets
   if (columns < kLeast + kFrame || work_.budget <= 0) return "";
   const std::size_t length = std::min(kMost, columns - kFrame);
-  const double share = std::clamp(static_cast<double>(done()) / work_.budget, 0.0, 1.0);
+  const double share = std::clamp(static_cast<double>(counts_.known()) / work_.budget, 0.0, 1.0);
   const auto full = static_cast<std::size_t>(share * static_cast<double>(length));
   return " [" + std::string(full, '#') + std::string(length - full, '-') + "]";
 }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "calibrate/check/check.h"
-#include "calibrate/evaluate/evaluator.h"
+#include "calibrate/evaluate/simulation.h"
 #include "calibrate/search/search.h"
 #include "core/step/run.h"
 
@@ -93,7 +93,6 @@ class ProgressLine {
   std::string text() const;
   std::string bar(std::size_t columns) const;
   std::string time_left() const;
-  int done() const { return counts_.simulated + counts_.answered; }
 
   StatusLine line_;
   const WorkAhead work_;

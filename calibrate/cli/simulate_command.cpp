@@ -155,9 +155,9 @@ void judge_step(double given_s, double advised_s) {
 }
 
 /// One simulation with its observers and outputs.
-class Simulation {
+class SingleSimulation {
  public:
-  Simulation(const SimulateOptions& options, const Scene& scene)
+  SingleSimulation(const SimulateOptions& options, const Scene& scene)
       : options_(options), scene_(scene), test_(std::get_if<Test>(&scene)) {
     run_.steps.fixed_step_s = options.time_step_s;
     run_.steps.threads = options.threads;
@@ -263,7 +263,7 @@ class Simulation {
 int simulate_file(const SimulateOptions& options) {
   const Scene scene = scene_of(options);
   refuse(option_faults(options, scene));
-  return Simulation(options, scene).run();
+  return SingleSimulation(options, scene).run();
 }
 
 }  // namespace

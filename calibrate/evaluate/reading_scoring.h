@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "calibrate/evaluate/objective.h"
+#include "calibrate/evaluate/scoring.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"

@@ -19,7 +19,7 @@ namespace {
 constexpr double rounding = 1e-12;  // of a coordinate that was converted to a value and back
 
 /// Merged evaluation of a candidate on one packing, if stored. `before`: only from epochs before this one. `tried`: as
-/// `Objective::try_out` returned it.
+/// a simulation that may end early (`Simulation`) shows it.
 std::optional<StoredEvaluation> find_in(const Study& study, std::span<const std::size_t> tests, const Store& store,
                                         std::span<const double> values, std::uint64_t packing, int before, bool tried) {
   std::vector<StoredEvaluation> found;

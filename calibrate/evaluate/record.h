@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/evaluate/objective.h"
+#include "calibrate/evaluate/scoring.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/study.h"
 

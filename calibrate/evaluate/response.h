@@ -21,7 +21,7 @@ struct Evaluation {
   std::uint64_t packing = 0;
   std::vector<double> readings;  ///< one for each measurement of the study; NaN: not taken; empty after a failure
   std::optional<Failure> failure;
-  bool censored = false;  ///< see `Objective::try_out`
+  bool censored = false;  ///< see `Simulation::may_end_early`
   int simulations = 1;    ///< spent on it; 0: known before, or cut off by a stop
   /// Rejection index: beyond 1 a laboratory rejects the heap, e.g. because it sheared off; NaN: not judged.
   double rejection_index = std::numeric_limits<double>::quiet_NaN();

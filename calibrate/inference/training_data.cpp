@@ -29,7 +29,7 @@ int most_repeats(const std::vector<StudyReading>& readings) {
 }
 
 /// Index of the test of a reading, by its name in the study.
-std::size_t test_of(const Study& study, const std::string& name) {
+std::size_t index_of_test(const Study& study, const std::string& name) {
   for (std::size_t test = 0; test < study.tests.size(); ++test)
     for (const ReadingKind& kind : reading_kinds(study.tests[test].lab.test))
       if (reading_name(study.tests[test], kind.name) == name) return test;
@@ -62,7 +62,7 @@ TrainingData training_data_of(const Study& study, std::span<const StoredEvaluati
   for (const Reading& reading : (*std::ranges::max_element(good, {}, readings))->readings.all()) {
     ReadingTrainingData one;
     one.name = reading.name;
-    one.test = test_of(study, reading.name);
+    one.test = index_of_test(study, reading.name);
     one.simulated.resize(static_cast<Eigen::Index>(good.size()));
     for (std::size_t i = 0; i < good.size(); ++i)
       one.simulated[static_cast<Eigen::Index>(i)] = good[i]->readings.find(reading.name).value_or(std::nan(""));

@@ -1,130 +1,46 @@
 #include "calibrate/python/asked_search.h"
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
+#include "calibrate/calibrate.h"
 #include "calibrate/card/calibration_card.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/python/module.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit::python {
 
 using nlohmann::ordered_json;
 
-/// `Examination` with an external simulator: its candidates are suggested and answered like those of a search.
-class AskedExamination {
- public:
-  /// Requirements: those of `Examination`; answers and calibration must outlive it.
-  AskedExamination(const Answers& answers, const Calibration& found, int simulations)
-      : scoring_(answers.scoring()),
-        queue_(scoring_, simulations, {}),
-        examination_([&answers](std::span<const Response> history) { return answers.evidence(history); }, found,
-                     std::min(answers.options().examination_simulations, queue_.budget_left()),
-                     answers.options().seed) {
-    queue_.enter("examination");
-    advance();
+AskedSearch::AskedSearch(std::unique_ptr<Store> store, std::unique_ptr<Answers> answers, Table table)
+    : store_(std::move(store)),
+      answers_(std::move(answers)),
+      table_(std::move(table)),
+      calibrator_(*answers_, [this](const Progress& progress) {
+        const std::lock_guard lock(mutex_);
+        progress_ = progress;
+        phase_ = progress.phase;
+        progress_.phase = {};
+      }) {}
+
+ordered_json AskedSearch::suggest(std::size_t count) {
+  ordered_json out = ordered_json::array();
+  for (const Simulation& one : calibrator_.suggest(count)) {
+    auto& simulations = asked_[one.candidate];
+    simulations.push_back(one);
+    if (simulations.size() > 1) continue;
+    ordered_json variables = ordered_json::object();
+    const auto& parameters = answers_->parameters();
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      variables[parameters[i].name] = value_between(parameters[i], one.point[static_cast<Eigen::Index>(i)]);
+    out.push_back({{"_id", one.candidate}, {"seed", one.packing}, {"variables", variables}, {"purpose", one.purpose}});
   }
-
-  std::vector<Candidate> suggest(std::size_t count) { return queue_.suggest(count); }
-  void ingest(const CandidateResult& result) {
-    queue_.ingest({&result, 1});
-    advance();
-  }
-
-  void stop() {
-    queue_.stop();
-    advance();
-  }
-
-  bool finished() const { return finished_; }
-  /// Requirement: the examination has finished.
-  std::optional<Inference> inference() const { return examination_.result(); }
-
- private:
-  void advance() {
-    while (!finished_ && queue_.is_answered(awaited_)) {
-      std::vector<Response> responses;
-      for (const Evaluation& one : queue_.answers(std::exchange(awaited_, {})))
-        responses.push_back(scoring_.response_of({one}));
-      examination_.ingest(std::move(responses));
-      const auto request = examination_.next(queue_.stop_requested() ? 0 : queue_.budget_left());
-      if (request)
-        awaited_ = queue_.ask(request->points, {&request->packing, 1}, Fidelity::fine, false);
-      else
-        finished_ = true;
-    }
-  }
-
-  const Scoring& scoring_;
-  CandidateQueue queue_;
-  Examination examination_;
-  std::vector<std::size_t> awaited_;  // numbers of the pending candidates
-  bool finished_ = false;
-};
-
-AskedSearch::AskedSearch(std::unique_ptr<Answers> answers) : answers_(std::move(answers)) {
-  SearchStart start;
-  start.simulations = answers_->options().budget_simulations;
-  start.earlier = answers_->earlier();
-  start.readings = answers_->readings();
-  for (const Parameter& parameter : answers_->parameters()) start.parameters.push_back(parameter.name);
-  const auto keep = [this](const Progress& progress) {
-    const std::lock_guard lock(mutex_);
-    progress_ = progress;
-    phase_ = progress.phase;
-    progress_.phase = {};
-  };
-  search_ = std::make_unique<Search>(answers_->scoring(), answers_->options(), std::move(start), keep);
-}
-
-AskedSearch::~AskedSearch() = default;
-
-Progress AskedSearch::progress(std::string& phase) const {
-  const std::lock_guard lock(mutex_);
-  phase = phase_;
-  return progress_;
-}
-
-std::vector<Candidate> AskedSearch::suggest(std::size_t count) {
-  for (;;) {
-    auto candidates = next(count);
-    const bool any = !candidates.empty();
-    std::erase_if(candidates, [this](const Candidate& one) { return is_known(one); });
-    for (const Candidate& one : candidates) asked_.emplace(one.number, one);
-    if (!any || !candidates.empty()) return candidates;
-  }
-}
-
-std::vector<Candidate> AskedSearch::next(std::size_t count) {
-  auto candidates = search_->suggest(count);
-  for (const Candidate& one : candidates) asked_by_the_search_ = std::max(asked_by_the_search_, one.number + 1);
-  if (!candidates.empty() || !begin_examination()) return candidates;
-  candidates = examination_->suggest(count);
-  for (Candidate& one : candidates) one.number += asked_by_the_search_;
-  return candidates;
-}
-
-/// False during the search, and if there is nothing to examine.
-bool AskedSearch::begin_examination() {
-  if (examination_) return true;
-  if (!search_->finished() || stopped_) return false;
-  found_ = search_->result();
-  const bool any = found_.best.point.size() > 0 && !found_.best.failed;
-  if (!any || found_.status == CalibrationStatus::out_of_reach) return false;
-  const int left = answers_->options().budget_simulations - counts_.simulated - counts_.answered;
-  examination_ = std::make_unique<AskedExamination>(*answers_, found_, std::max(0, left));
-  return true;
-}
-
-bool AskedSearch::is_known(const Candidate& candidate) {
-  const auto known = answers_->find(candidate);
-  if (!known) return false;
-  counts_.answered += known->simulations;
-  tell(candidate, *known);
-  return true;
+  return out;
 }
 
 Faults AskedSearch::faults_of(const EngineAnswer& answer, std::size_t place) const {
@@ -141,43 +57,44 @@ Faults AskedSearch::faults_of(const EngineAnswer& answer, std::size_t place) con
   return faults;
 }
 
+namespace {
+
+/// Result for one test: its readings under its own names; of a problem, the measured ones.
+Outcome outcome_of(const Simulation& simulation, const EngineAnswer& answer, const std::vector<std::string>& measured) {
+  Outcome outcome;
+  if (answer.error) {
+    outcome.failure.emplace().reason = FailureReason::engine_failed;
+    outcome.failure->message = *answer.error;
+  } else if (simulation.study) {
+    const std::string before = reading_name(simulation.study->tests[simulation.test], "");
+    for (const auto& [name, value] : answer.readings.all())
+      if (name.starts_with(before)) outcome.readings.set(std::string_view(name).substr(before.size()), value);
+  } else {
+    for (const std::string& name : measured) outcome.readings.set(name, answer.readings.find(name).value());
+  }
+  return outcome;
+}
+
+}  // namespace
+
 Faults AskedSearch::ingest(const std::vector<EngineAnswer>& answers) {
   Faults faults;
   for (std::size_t i = 0; i < answers.size(); ++i) append(faults, faults_of(answers[i], i));
   if (!faults.empty()) return faults;
-  for (const EngineAnswer& answer : answers) {
-    const Candidate& candidate = asked_.at(answer.candidate);
-    if (answers_->find(candidate)) continue;  // duplicate
-    const auto kept = answers_->keep(candidate, answer);
-    if (!kept.ok()) return kept.faults();
-    counts_.simulated += kept.value().simulations;
-    tell(candidate, kept.value());
-  }
+  for (const EngineAnswer& answer : answers)
+    for (const Simulation& one : asked_.at(answer.candidate)) {
+      StoredEvaluation evaluation = answers_->unanswered(one);
+      enter(evaluation, outcome_of(one, answer, answers_->readings()), std::nullopt);
+      if (auto unstored = calibrator_.ingest(one, evaluation); !unstored.empty()) return unstored;
+    }
   return {};
 }
 
-void AskedSearch::tell(const Candidate& candidate, const Evaluation& evaluation) {
-  if (evaluation.failure) ++counts_.failures[evaluation.failure->reason];
-  CandidateResult result{candidate.number, evaluation};
-  if (!examination_) return search_->ingest({&result, 1});
-  if (result.candidate < asked_by_the_search_) return;  // late answer to the search
-  result.candidate -= asked_by_the_search_;
-  examination_->ingest(result);
-}
-
-void AskedSearch::stop() {
-  stopped_ = true;
-  search_->stop();
-  if (examination_) examination_->stop();
-}
-
-bool AskedSearch::finished() {
-  return search_->finished() && (!begin_examination() || examination_->finished());
-}
+namespace {
 
 /// Measured and simulated readings, as on a card.
-static ordered_json readings_json(const Scoring& scoring, const Response& shown,
-                                  const std::vector<ReadingTrainingData>& evidence) {
+ordered_json readings_json(const Scoring& scoring, const Response& shown,
+                           const std::vector<ReadingTrainingData>& evidence) {
   ordered_json out = ordered_json::array();
   for (std::size_t i = 0; i < evidence.size(); ++i) {
     const double simulated = shown.readings[static_cast<Eigen::Index>(i)];
@@ -192,24 +109,36 @@ static ordered_json readings_json(const Scoring& scoring, const Response& shown,
   return out;
 }
 
-ordered_json AskedSearch::result() {
-  CalibrationResult result;
-  result.search = search_->result();
-  result.counts = counts_;
-  const Calibration& found = result.search;
-  if (found.best.point.size() == 0 || found.best.failed) return result_json(result);
-  result.card = answers_->card(found, counts_);
-  if (examination_) result.inference = examination_->inference();
-  if (result.inference && result.card) result.card->inference = card_inference(*result.inference);
+}  // namespace
+
+ordered_json AskedSearch::result() const {
+  const CalibrationResult result = calibrator_.result();
   ordered_json out = result_json(result);
-  if (result.card) return out;
+  const Calibration& found = result.search;
+  if (result.card || found.best.point.size() == 0 || found.best.failed) return out;
   const Response& shown = shown_of(found);
-  const auto parameters = answers_->parameters();
+  const auto& parameters = answers_->parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i)
     out["parameters"][parameters[i].name] = value_between(parameters[i], shown.point[static_cast<Eigen::Index>(i)]);
   out["readings"] = readings_json(answers_->scoring(), shown, answers_->evidence(found.history).readings);
   if (result.inference) out["summary"] = describe(*result.inference);
   return out;
+}
+
+ordered_json AskedSearch::progress() const {
+  const std::lock_guard lock(mutex_);
+  return progress_json(progress_, phase_);
+}
+
+Result<std::shared_ptr<AskedSearch>> search_of_study(std::shared_ptr<const Study> study, const std::string& study_file,
+                                                     const std::string& file, const std::string& engine) {
+  if (auto faults = validate(*study, CalibrateOptions{}); !faults.empty()) return faults;
+  auto opened = Store::open(file, {engine, inputs_of(*study)});
+  if (!opened.ok()) return opened.faults();
+  auto store = std::make_unique<Store>(std::move(opened).value());
+  if (auto faults = strangers_in(*study, *store, file); !faults.empty()) return faults;
+  auto answers = std::make_unique<StudyAnswers>(std::move(study), *store, study_file, Simulates::fitted_tests);
+  return std::make_shared<AskedSearch>(std::move(store), std::move(answers), evaluations_json);
 }
 
 }  // namespace pastefit::python

@@ -1,66 +1,65 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "calibrate/calibrate.h"
-#include "calibrate/inference/examination.h"
-#include "calibrate/python/answers.h"
-#include "calibrate/search/candidate_queue.h"
-#include "calibrate/search/search.h"
+#include "calibrate/calibrator.h"
+#include "calibrate/store/store.h"
 
 namespace pastefit::python {
 
-class AskedExamination;
+/// Result of an external simulator for a candidate.
+struct EngineAnswer {
+  std::size_t candidate = 0;
+  Readings readings;                 ///< by name in the study, all finite
+  std::optional<std::string> error;  ///< reason why there are none
+};
 
-/// Search with an external simulator. Every answer is stored before it is used, and stored answers are not requested
-/// again, so an interrupted search continues where it stopped.
+/// Calibration with an external simulator, which answers a candidate with all its readings at once.
 class AskedSearch {
  public:
-  explicit AskedSearch(std::unique_ptr<Answers> answers);
-  ~AskedSearch();
+  /// `table`: the evaluations of a store, as `evaluations_json`.
+  using Table = std::function<nlohmann::ordered_json(const Store&)>;
+  AskedSearch(std::unique_ptr<Store> store, std::unique_ptr<Answers> answers, Table table);
 
-  /// As `Search::suggest`, without stored candidates.
-  std::vector<Candidate> suggest(std::size_t count);
+  /// [{"_id", "seed", "variables", "purpose"}, ...]
+  nlohmann::ordered_json suggest(std::size_t count);
   /// Takes answers. Errors: an answer to an unknown candidate, or without a measured reading (nothing is taken then);
   /// an answer cannot be stored.
   Faults ingest(const std::vector<EngineAnswer>& answers);
   /// Ends the search with the best result so far, without examination.
-  void stop();
-  /// True after search and examination.
-  bool finished();
+  void stop() { calibrator_.stop(); }
+  bool finished() const { return calibrator_.finished(); }
 
-  /// As `result_json`, with "parameters" and "readings" of the reported candidate. Requirement: `finished()`.
-  nlohmann::ordered_json result();
-
-  const Answers& answers() const { return *answers_; }
-  Progress progress(std::string& phase) const;
+  /// As `result_json`; without a card, also "parameters" and "readings" of the reported candidate. Requirement:
+  /// `finished()`.
+  nlohmann::ordered_json result() const;
+  nlohmann::ordered_json evaluations() const { return table_(*store_); }
+  nlohmann::ordered_json progress() const;
 
  private:
   Faults faults_of(const EngineAnswer& answer, std::size_t place) const;
-  /// Candidates of the search; after its end, those of the examination of other fitting materials (`examine`).
-  std::vector<Candidate> next(std::size_t count);
-  bool begin_examination();
-  bool is_known(const Candidate& candidate);
-  void tell(const Candidate& candidate, const Evaluation& evaluation);
 
+  const std::unique_ptr<Store> store_;
   const std::unique_ptr<Answers> answers_;
-  std::map<std::size_t, Candidate> asked_;  // suggested candidates
-  EvaluationCounts counts_;
-  bool stopped_ = false;
-  Calibration found_;                    // after the search
-  std::size_t asked_by_the_search_ = 0;  // number of candidates; those of the examination are numbered after them
-  mutable std::mutex mutex_;             // guards what follows
+  const Table table_;
+  std::map<std::size_t, std::vector<Simulation>> asked_;  // simulations of the suggested candidates
+  mutable std::mutex mutex_;                              // guards what follows
   Progress progress_;
   std::string phase_;
-  std::unique_ptr<Search> search_;
-  std::unique_ptr<AskedExamination> examination_;
+  Calibrator calibrator_;  // last: reports progress
 };
+
+/// Answers to a study, stored in `file`. `engine`: name and version of the simulator; answers of other engines are not
+/// used. Errors: the study cannot be searched; the store belongs to another engine or study.
+Result<std::shared_ptr<AskedSearch>> search_of_study(std::shared_ptr<const Study> study, const std::string& study_file,
+                                                     const std::string& file, const std::string& engine);
 
 }  // namespace pastefit::python

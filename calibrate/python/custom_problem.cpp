@@ -93,13 +93,6 @@ Faults clashing_names(const CustomProblem& problem, std::span<const std::string>
   return faults;
 }
 
-std::string key_of_candidate(const Candidate& candidate) {
-  return content_hash(json{
-      {"point", std::vector<double>(candidate.point.begin(), candidate.point.end())},
-      {"seed",
-       candidate.packing}}.dump());
-}
-
 /// The error of a failed candidate is the measured value, or ten standard deviations if that is more.
 class ProblemScoring : public ReadingScoring {
  public:
@@ -112,35 +105,60 @@ class ProblemScoring : public ReadingScoring {
   }
 };
 
-/// The answers to a problem.
+/// True if it has a coordinate for each parameter and, unless it failed, a number for each reading.
+bool is_answer(const CustomProblem& problem, const StoredEvaluation& kept) {
+  const auto is_there = [&](const StudyReading& reading) {
+    return std::isfinite(kept.readings.find(reading.name).value_or(std::nan("")));
+  };
+  return kept.point.size() == problem.parameters.size() &&
+         (kept.failure || std::ranges::all_of(problem.readings, is_there));
+}
+
+/// The answers to a problem: one simulation for each candidate, of no test.
 class ProblemAnswers : public Answers {
  public:
-  ProblemAnswers(CustomProblem problem, Store store)
-      : Answers(problem.parameters, problem.readings),
+  ProblemAnswers(CustomProblem problem, Store& store)
+      : Answers(problem.parameters, problem.readings, store),
         problem_(std::move(problem)),
-        store_(std::move(store)),
         scoring_(problem_.readings, problem_.parameters) {}
 
   const Scoring& scoring() const override { return scoring_; }
   const SearchOptions& options() const override { return problem_.search; }
   std::optional<Card> card(const Calibration&, const EvaluationCounts&) const override { return std::nullopt; }
 
-  std::optional<Evaluation> find(const Candidate& candidate) const override {
-    const auto kept = store_.find(key_of_candidate(candidate));
-    return kept && is_answer(*kept) ? std::optional(evaluation_of(*kept)) : std::nullopt;
+  std::vector<Simulation> simulations_of(const Candidate& candidate) const override {
+    return {{candidate.number, nullptr, 0, candidate.point, candidate.packing, false, candidate.purpose}};
   }
 
-  Result<Evaluation> keep(const Candidate& candidate, const EngineAnswer& answer) override {
-    StoredEvaluation kept;
-    kept.key = key_of_candidate(candidate);
-    kept.point.assign(candidate.point.begin(), candidate.point.end());
-    kept.values = default_values();
-    kept.packing = candidate.packing;
-    kept.failure = failure_of(answer);
+  StoredEvaluation unanswered(const Simulation& simulation) const override {
+    StoredEvaluation out;
+    out.point.assign(simulation.point.begin(), simulation.point.end());
+    out.key = content_hash(json{{"point", out.point}, {"seed", simulation.packing}}.dump());
+    out.values = default_values();
+    out.packing = simulation.packing;
+    return out;
+  }
+
+  std::optional<StoredEvaluation> find(const Simulation& simulation) const override {
+    auto kept = store().find(unanswered(simulation).key);
+    return kept && is_answer(problem_, *kept) ? std::move(kept) : std::nullopt;
+  }
+
+  std::optional<Failure> failure_of(const Simulation&, const StoredEvaluation& evaluation) const override {
+    return evaluation.failure;
+  }
+
+  Evaluation evaluation_of(std::span<const Simulation> simulations,
+                           std::span<const StoredEvaluation> evaluations) const override {
+    const StoredEvaluation& kept = evaluations.front();
+    Evaluation evaluation;
+    evaluation.point = simulations.front().point;
+    evaluation.packing = kept.packing;
+    evaluation.failure = kept.failure;
     if (!kept.failure)
-      for (const std::string& name : readings()) kept.readings.set(name, answer.readings.find(name).value());
-    if (auto faults = store_.add(kept); !faults.empty()) return faults;
-    return evaluation_of(kept);
+      for (const StudyReading& reading : problem_.readings)
+        evaluation.readings.push_back(kept.readings.find(reading.name).value());
+    return evaluation;
   }
 
   TrainingData evidence(std::span<const Response> history) const override {
@@ -171,44 +189,22 @@ class ProblemAnswers : public Answers {
     return data;
   }
 
-  nlohmann::ordered_json evaluations() const override {
-    auto out = nlohmann::ordered_json::array();
-    for (const StoredEvaluation& one : store_.all()) {
-      if (!is_answer(one)) continue;
-      nlohmann::ordered_json parameters;
-      for (std::size_t i = 0; i < problem_.parameters.size(); ++i)
-        parameters[problem_.parameters[i].name] = value_between(problem_.parameters[i], one.point.at(i));
-      out.push_back(evaluation_json(out.size(), one, std::move(parameters)));
-    }
-    return out;
-  }
-
  private:
-  /// True if it has a coordinate for each parameter and, unless it failed, a number for each reading.
-  bool is_answer(const StoredEvaluation& kept) const {
-    const auto is_there = [&](const StudyReading& reading) {
-      return std::isfinite(kept.readings.find(reading.name).value_or(std::nan("")));
-    };
-    return kept.point.size() == problem_.parameters.size() &&
-           (kept.failure || std::ranges::all_of(problem_.readings, is_there));
-  }
-
-  Evaluation evaluation_of(const StoredEvaluation& kept) const {
-    Evaluation evaluation;
-    evaluation.point =
-        Eigen::Map<const Eigen::VectorXd>(kept.point.data(), static_cast<Eigen::Index>(kept.point.size()));
-    evaluation.packing = kept.packing;
-    evaluation.failure = kept.failure;
-    if (!kept.failure)
-      for (const StudyReading& reading : problem_.readings)
-        evaluation.readings.push_back(kept.readings.find(reading.name).value());
-    return evaluation;
-  }
-
   const CustomProblem problem_;
-  Store store_;
   const ProblemScoring scoring_;
 };
+
+nlohmann::ordered_json evaluations_of(const CustomProblem& problem, const Store& store) {
+  auto out = nlohmann::ordered_json::array();
+  for (const StoredEvaluation& one : store.all()) {
+    if (!is_answer(problem, one)) continue;
+    nlohmann::ordered_json parameters;
+    for (std::size_t i = 0; i < problem.parameters.size(); ++i)
+      parameters[problem.parameters[i].name] = value_between(problem.parameters[i], one.point.at(i));
+    out.push_back(evaluation_json(out.size(), one, std::move(parameters)));
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -230,16 +226,19 @@ Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::spa
   return problem;
 }
 
-Result<std::unique_ptr<Answers>> answers_to_problem(CustomProblem problem, const std::string& file,
-                                                    const std::string& engine) {
+Result<std::shared_ptr<AskedSearch>> search_of_problem(CustomProblem problem, const std::string& file,
+                                                       const std::string& engine) {
   json inputs = json::parse(problem.content);
   inputs.erase("title");
   if (inputs.contains("search")) inputs["search"].erase("budget_simulations");
-  auto store = Store::open(file, {engine, json{{"problem", inputs}}.dump()});
-  if (!store.ok()) return store.faults();
-  if (store.value().size() > 0 && !store.value().changes().empty())
+  auto opened = Store::open(file, {engine, json{{"problem", inputs}}.dump()});
+  if (!opened.ok()) return opened.faults();
+  auto store = std::make_unique<Store>(std::move(opened).value());
+  if (store->size() > 0 && !store->changes().empty())
     return Fault{file, "holds the answers of another problem", "another file; nothing of it was changed"};
-  return std::unique_ptr<Answers>(std::make_unique<ProblemAnswers>(std::move(problem), std::move(store).value()));
+  auto answers = std::make_unique<ProblemAnswers>(problem, *store);
+  const auto table = [problem = std::move(problem)](const Store& of) { return evaluations_of(problem, of); };
+  return std::make_shared<AskedSearch>(std::move(store), std::move(answers), table);
 }
 
 }  // namespace pastefit::python

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "calibrate/evaluate/reading_scoring.h"
-#include "calibrate/python/answers.h"
+#include "calibrate/python/asked_search.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"
@@ -31,7 +31,7 @@ struct CustomProblem {
 Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::span<const std::string> own);
 
 /// Answers to a problem, stored in `file`. Errors: those of `Store::open`; the store belongs to another problem.
-Result<std::unique_ptr<Answers>> answers_to_problem(CustomProblem problem, const std::string& file,
-                                                    const std::string& engine);
+Result<std::shared_ptr<AskedSearch>> search_of_problem(CustomProblem problem, const std::string& file,
+                                                       const std::string& engine);
 
 }  // namespace pastefit::python

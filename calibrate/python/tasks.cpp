@@ -1,72 +1,19 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "calibrate/evaluate/task.h"
 #include "calibrate/python/module.h"
-#include "calibrate/store/outcome_json.h"
 #include "core/apparatus/slump/packing.h"
 
 namespace pastefit::python {
 
 namespace py = pybind11;
-using nlohmann::json;
 
 namespace {
-
-/// Packings of this process's latest tasks, each filled once.
-class Packings {
- public:
-  std::shared_ptr<const Packing> of(const std::string& name, const Test& test) {
-    constexpr std::size_t kMost = 64;
-    std::shared_ptr<Filled> one;
-    {
-      const std::lock_guard lock(mutex_);
-      if (filled_.size() >= kMost && !filled_.contains(name)) filled_.clear();
-      std::shared_ptr<Filled>& entry = filled_[name];
-      if (!entry) entry = std::make_shared<Filled>();
-      one = entry;
-    }
-    std::call_once(one->once, [&] { one->packing = prepare(test); });
-    return one->packing;
-  }
-
- private:
-  struct Filled {
-    std::once_flag once;
-    std::shared_ptr<const Packing> packing;
-  };
-  std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<Filled>> filled_;
-};
-
-std::string simulate_task(const std::string& text) {
-  static Packings packings;
-  const json task = parsed(text);
-  const Test test = value_or_throw(test_from_json(task.at("test")));
-  RunOptions options;
-  options.steps.energy_balance = task.at("energy_balance").get<bool>();
-  if (const auto cutoff = task.find("cutoff"); cutoff != task.end())
-    options.cutoff = {cutoff->at("reading").get<std::string>(), number_from_json(cutoff->at("lowest")),
-                      number_from_json(cutoff->at("highest"))};
-  options.packing = packings.of(task.at("packing").get<std::string>(), test);
-  const Outcome outcome = simulate(test, options);
-  return nlohmann::ordered_json{
-      {"readings", to_json(outcome.readings)}, {"run", to_json(outcome.run, 0)}, {"failure", to_json(outcome.failure)}}
-      .dump();
-}
-
-json task_json(const Test& test, const RunOptions& options, const std::string& packing) {
-  json task{{"test", to_json(test)}, {"energy_balance", options.steps.energy_balance}, {"packing", packing}};
-  if (options.cutoff)
-    task["cutoff"] = {{"reading", options.cutoff->reading},
-                      {"lowest", number_to_json(options.cutoff->lowest)},
-                      {"highest", number_to_json(options.cutoff->highest)}};
-  return task;
-}
 
 /// Names of packings that are filled by the process that needs them.
 class PackingNames {
@@ -105,19 +52,6 @@ std::string answer_to(const py::function& ask, const std::string& task, const Ru
   }
 }
 
-Outcome outcome_of(const std::string& answer) {
-  Outcome outcome;
-  if (answer.empty()) {
-    outcome.failure.emplace().reason = FailureReason::stopped;
-    return outcome;
-  }
-  const auto given = nlohmann::ordered_json::parse(answer);
-  outcome.failure = failure_from_json(given.at("failure"));
-  if (given.contains("readings")) outcome.readings = readings_from_json(given.at("readings"));
-  if (given.contains("run")) outcome.run = run_from_json(given.at("run"));
-  return outcome;
-}
-
 }  // namespace
 
 Engine engine_of(py::function ask, std::string name) {
@@ -130,19 +64,14 @@ Engine engine_of(py::function ask, std::string name) {
   Engine engine;
   engine.prepare = [names](const Test&, const RunOptions&) { return names->next(); };
   engine.run = [names, function](const Test& test, const RunOptions& options) {
-    return outcome_of(answer_to(*function, task_json(test, options, names->of(options.packing.get())).dump(), options));
+    return outcome_of_task(answer_to(*function, task_text(test, options, names->of(options.packing.get())), options));
   };
   return engine;
 }
 
 void add_tasks(py::module_& module) {
   module.def("simulate_task", simulate_task, py::call_guard<py::gil_scoped_release>());
-  module.def("failed_task", [](const std::string& message) {
-    Failure failure;
-    failure.reason = FailureReason::engine_failed;
-    failure.message = message;
-    return nlohmann::ordered_json{{"failure", to_json(std::optional(failure))}}.dump();
-  });
+  module.def("failed_task", failed_task);
 }
 
 }  // namespace pastefit::python

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "calibrate/evaluate/objective.h"
+#include "calibrate/evaluate/scoring.h"
 
 namespace pastefit {
 
@@ -26,7 +26,7 @@ struct Candidate {
   UnitPoint point;
   std::uint64_t packing = 0;
   Fidelity fidelity = Fidelity::fine;
-  bool may_end_early = false;  ///< see `Objective::try_out`
+  bool may_end_early = false;  ///< see `Simulation::may_end_early`
   std::string purpose;         ///< phase of the search: "screening", "search", "refinement", "confirmation"
 };
 

@@ -1,7 +1,5 @@
 #include "calibrate/search/search.h"
 
-#include <deque>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -59,42 +57,6 @@ std::vector<CandidateResult> Search::results() const {
 const Calibration& Search::result() const {
   if (!finished()) throw std::logic_error("search: it has not finished");
   return run_->strategy.result();
-}
-
-Calibration drive(Search& search, Objective& objective, Objective* coarse) {
-  const auto of = [&](const Candidate& one) -> Objective& {
-    return one.fidelity == Fidelity::fine ? objective : *coarse;
-  };
-  std::deque<Candidate> under_way;
-  while (!search.finished()) {
-    if (objective.stop_requested()) search.stop();
-    const auto candidates = search.suggest(std::numeric_limits<std::size_t>::max());
-    for (const Candidate& one : candidates) {
-      of(one).begin({&one.point, 1}, {&one.packing, 1}, one.may_end_early);
-      under_way.push_back(one);
-    }
-    if (!candidates.empty() || under_way.empty()) continue;
-    const Candidate first = std::move(under_way.front());
-    under_way.pop_front();
-    const auto answer = first.may_end_early ? &Objective::try_out : &Objective::evaluate;
-    const Response response = (of(first).*answer)({&first.point, 1}, {&first.packing, 1}).at(0);
-    const CandidateResult result{first.number, response.evaluations.at(0)};
-    search.ingest({&result, 1});
-  }
-  return search.result();
-}
-
-Calibration search(Objective& objective, const SearchOptions& options,
-                   const std::function<void(const Progress&)>& progress, std::span<const std::string> readings,
-                   std::span<const std::string> parameters, Objective* coarse) {
-  Search search(objective, options,
-                {.simulations = objective.simulations_left(),
-                 .with_coarse = coarse != nullptr,
-                 .earlier = objective.earlier(),
-                 .readings = {readings.begin(), readings.end()},
-                 .parameters = {parameters.begin(), parameters.end()}},
-                progress);
-  return drive(search, objective, coarse);
 }
 
 }  // namespace pastefit

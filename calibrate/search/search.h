@@ -52,15 +52,4 @@ class Search {
   std::unique_ptr<Run> run_;
 };
 
-/// Runs a search with objectives on this machine until it finishes or `objective` requests a stop.
-Calibration drive(Search& search, Objective& objective, Objective* coarse = nullptr);
-
-/// Creates and runs a search. `readings`, `parameters`: names for the reason; may be empty. `coarse`: objective with
-/// coarser grains, for packings from `coarse_packings` on; default strategy only. Errors: throws what the objective
-/// throws, and std::logic_error if the options are not valid.
-Calibration search(Objective& objective, const SearchOptions& options,
-                   const std::function<void(const Progress&)>& progress = {},
-                   std::span<const std::string> readings = {}, std::span<const std::string> parameters = {},
-                   Objective* coarse = nullptr);
-
 }  // namespace pastefit

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "calibrate/evaluate/response.h"
-#include "calibrate/inference/examination.h"
 #include "calibrate/inference/response_model.h"
 #include "calibrate/search/screening.h"
 #include "calibrate/store/program.h"
@@ -49,7 +48,7 @@ double true_lead_of(const Twin& twin, const Store& store, const UnitPoint& recom
 
 }  // namespace
 
-Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number, const EvaluatorOptions& options) {
+Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number, const CalibrateOptions& options) {
   Twin twin;
   twin.number = number;
   twin.study = study;
@@ -93,7 +92,7 @@ Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number,
   return twin;
 }
 
-TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_file, const EvaluatorOptions& options) {
+TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_file, const CalibrateOptions& options) {
   TwinResult result;
   result.number = twin.number;
   const auto start = std::chrono::steady_clock::now();
@@ -102,16 +101,16 @@ TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_f
     result.status = "no store: " + store.faults().front().what;
     return result;
   }
-  SimulationObjective objective(twin.study, store.value(), options);
-  const SearchOptions& search_options = twin.study.search;
-  const Calibration calibration = search(objective, search_options);
+  const auto calibrated = calibrate(twin.study, store.value(), options);
+  if (!calibrated.ok()) {
+    result.status = message_of(calibrated.faults());
+    return result;
+  }
+  const Calibration& calibration = calibrated.value().search;
   result.status = name_of(calibration.status);
-  if (!is_feasible(calibration.best)) return result;
-  const Inference inference = examine(twin.study, objective, store.value(), calibration,
-                                      search_options.examination_simulations, search_options.seed)
-                                  .value();
-  const EvaluationCounts counts = objective.counts();
-  result.simulations = counts.simulated + counts.answered;
+  if (!calibrated.value().inference) return result;
+  const Inference& inference = *calibrated.value().inference;
+  result.simulations = calibrated.value().counts.known();
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   const bool fresh = calibration.confirmation.point.size() > 0 && is_feasible(calibration.confirmation);

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/evaluate/evaluator.h"
-#include "calibrate/search/search.h"
+#include "calibrate/calibrate.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {
@@ -54,9 +53,9 @@ struct TwinResult {
 
 /// The twin's laboratory: simulations of the truth, read with a ruler. Truths are Sobol points of the study's box.
 /// Errors: the truth fails on one of its packings.
-Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number, const EvaluatorOptions& options);
+Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number, const CalibrateOptions& options);
 
 /// Calibrates the twin as `pastefit calibrate` does, with its evaluations in `store_file`, and compares with the truth.
-TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_file, const EvaluatorOptions& options);
+TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_file, const CalibrateOptions& options);
 
 }  // namespace pastefit

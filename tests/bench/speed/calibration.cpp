@@ -8,11 +8,11 @@
 
 #include "calibrate/base/machine.h"
 #include "calibrate/base/text.h"
-#include "calibrate/evaluate/evaluator.h"
 #include "calibrate/search/low_fidelity.h"
 #include "calibrate/study/tests.h"
 #include "core/observe/heap.h"
 #include "core/world/world.h"
+#include "tests/calibrate/search/simulation_objective.h"
 #include "tests/calibrate/slump.h"
 
 namespace pastefit {
@@ -83,16 +83,14 @@ CalibrationCost calibrate(const Study& study, const SearchOptions& options, cons
   auto store = Store::open(file, {"pastefit-bench", inputs_of(study)});
   if (!store.ok()) throw std::runtime_error(message_of(store.faults()));
   WatchedEngine engine(study);
-  EvaluatorOptions evaluator;
-  evaluator.budget = options.budget_simulations;
-  evaluator.run = run;
-  evaluator.engine.run =
-      of_slump([&](const SlumpTest& test, const RunOptions& asked) { return engine.run(test, asked); });
+  PoolOptions pool;
+  pool.run = run;
+  pool.engine.run = of_slump([&](const SlumpTest& test, const RunOptions& asked) { return engine.run(test, asked); });
   const std::clock_t start = std::clock();
   const auto begin = std::chrono::steady_clock::now();
-  SimulationObjective objective(study, store.value(), evaluator);
+  SimulationObjective objective(study, store.value(), pool, options.budget_simulations);
   const Study coarse_study = with_coarse_grains(study);
-  SimulationObjective coarse(coarse_study, store.value(), evaluator);
+  SimulationObjective coarse(coarse_study, store.value(), pool, options.budget_simulations);
   const Calibration calibration = search(objective, options, {}, {}, {}, options.coarse_first ? &coarse : nullptr);
   CalibrationCost cost;
   cost.core_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;

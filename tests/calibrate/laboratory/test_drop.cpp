@@ -1,12 +1,9 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/card/calibration_card.h"
+#include "calibrate/calibrate.h"
 #include "calibrate/card/card.h"
 #include "calibrate/check/check.h"
-#include "calibrate/inference/examination.h"
-#include "calibrate/search/low_fidelity.h"
-#include "calibrate/search/search.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/parameters.h"
@@ -27,20 +24,6 @@ Faults faults_of(const json& lab) {
   const Result<Lab> read = lab_from_json(lab, ".");
   return read.ok() ? Faults{} : read.faults();
 }
-
-/// The shipped twin, calibrated.
-struct Twin {
-  test::Folder folder;
-  Study study = read_study(PASTEFIT_SOURCE_DIR "/data/studies/drop-twin.json").value();
-  Store store = Store::open(folder.path() / "evaluations.sqlite", {program_identity(), "twin"}).value();
-  SimulationObjective objective{study, store, {}};
-  Calibration calibration = search(objective, study.search, {}, {}, {}, nullptr);
-
-  Card card() {
-    return card_of(study, calibration, study.search, baselines_of(study, shown_of(calibration), store),
-                   objective.counts(), "drop-twin.json");
-  }
-};
 
 TEST_CASE("a drop test is read in millimetres and degrees, and survives JSON bit for bit") {
   const Result<Lab> lab = lab_from_json(template_of_lab(), ".");
@@ -73,17 +56,17 @@ TEST_CASE("faults of a drop test are named in the words of its file") {
 
 TEST_CASE("restitution and friction of the drop twin are found, confirmed, and lie where they are told to",
           "[campaign]") {
-  Twin twin;
-  INFO(twin.calibration.reason);
-  CHECK(twin.calibration.status == CalibrationStatus::confirmed);
-  const Card card = twin.card();
+  const test::Folder folder;
+  const Study study = read_study(PASTEFIT_SOURCE_DIR "/data/studies/drop-twin.json").value();
+  Store store = Store::open(folder.path() / "evaluations.sqlite", {program_identity(), "twin"}).value();
+  const CalibrationResult result = calibrate(study, store).value();
+  INFO(result.search.reason);
+  CHECK(result.search.status == CalibrationStatus::confirmed);
+  const Card& card = result.card.value();
   CHECK(card.confirmation.meets_laboratory);
   CHECK(card.tests[0].lab.twin);
   CHECK(card.material.grain_density_kg_m3 == 2500);
-  const Inference inference = examine(twin.study, twin.objective, twin.store, twin.calibration,
-                                      twin.study.search.examination_simulations, twin.study.search.seed)
-                                  .value();
-  for (const ParameterInterval& one : inference.intervals) {
+  for (const ParameterInterval& one : result.inference.value().intervals) {
     const double truth = one.name == "restitution" ? 0.9 : 0.08;
     INFO(one.name << " between " << one.lower << " and " << one.upper);
     CHECK(one.interval_exists());

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "calibrate/evaluate/objective.h"
 #include "calibrate/optimisers/problem.h"
+#include "tests/calibrate/search/objective.h"
 
 namespace pastefit {
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "calibrate/search/strategy_state.h"
+#include "tests/calibrate/search/objective.h"
 
 namespace pastefit::synthetic {
 

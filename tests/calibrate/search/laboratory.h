@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <thread>
 
-#include "calibrate/evaluate/evaluator.h"
 #include "calibrate/study/parameters.h"
 #include "core/apparatus/slump/packing.h"
 #include "tests/calibrate/folder.h"
+#include "tests/calibrate/search/simulation_objective.h"
 #include "tests/calibrate/slump.h"
 
 namespace pastefit::test {
@@ -22,7 +22,7 @@ struct Laboratory {
   std::atomic<int> fills = 0;
   std::atomic<int> runs = 0;
   std::function<void(const SlumpTest&, const RunOptions&, Outcome&)> twist = [](auto&&...) {};
-  EvaluatorOptions options;
+  PoolOptions options;
 
   Laboratory() {
     for (const auto& kind : parameter_kinds())

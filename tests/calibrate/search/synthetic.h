@@ -9,9 +9,9 @@
 #include <tuple>
 #include <vector>
 
-#include "calibrate/evaluate/objective.h"
 #include "calibrate/evaluate/response.h"
 #include "calibrate/search/screening.h"
+#include "tests/calibrate/search/objective.h"
 
 namespace pastefit::synthetic {
 
