@@ -18,7 +18,7 @@ export default [
     },
   },
   {
-    files: ["calibrate/report/page/*", "tests/page/**"],
+    files: ["calibrate/*/page/*", "tests/page/**"],
     languageOptions: { globals: { ...globals.node, ...globals.browser } },
   },
 ];
