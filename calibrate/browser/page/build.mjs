@@ -1,7 +1,7 @@
 // Builds the page that calibrates: node build.mjs PASTEFIT.js PASTEFIT.wasm OUT.html [LICENCES.txt]
 //
 // PASTEFIT.js and PASTEFIT.wasm are the module of the preset `browser`; LICENCES.txt has the licences of what was
-// linked into it. OUT.html is shell.html with style/, source/ and the module in it, each worker's program and the module
+// linked into it. OUT.html is shell.html with style/, source/ and the module in it; the workers' program and the module
 // as gzip in base64. The same sources, packages (../../report/page/package-lock.json) and module give the same bytes.
 import { readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";

@@ -1,0 +1,148 @@
+// A module with the interface of calibrate/browser for tests of the page: it "simulates" by waiting, and confirms after
+// so many answers. It is given to the build in place of the real one, with a module of WebAssembly that is empty.
+// A title begins with what is to go wrong: "killer" ends each worker at its third simulation, "refused" refuses the study.
+// @ts-nocheck: what is asked is known to the page's own types
+
+const budget = 12;
+const preset = (name, title, [base, top, height], more = {}) => ({
+  name,
+  title,
+  mould: { base_diameter_mm: base, top_diameter_mm: top, height_mm: height },
+  ...more,
+});
+
+const text = (content) => `// made by a test\n${JSON.stringify(content, null, 2)}\n`;
+const read = (content) => JSON.parse(content.replace(/^\/\/.*$/gm, ""));
+const fault = (where, what, remedy) => ({ where, what, remedy });
+
+let search = null;
+let simulated = 0; // by this worker
+
+function faultsOf({ mould, density, slump, confirm }) {
+  const faults = [];
+  if (!mould) faults.push(fault("--mould", "is missing", "e.g. abrams"));
+  if (!/^[\d.]+( \S+)?$/.test(density)) faults.push(fault("density", `holds "${density}"`, "e.g. 2350"));
+  if (Number.parseFloat(density) < 100 && !confirm.includes("material.bulk_density_kg_m3"))
+    faults.push(
+      fault(
+        "material.bulk_density_kg_m3",
+        "is small",
+        'if it is right, say "confirmed": ["material.bulk_density_kg_m3"]',
+      ),
+    );
+  if (slump && /[a-z]$/.test(slump) && !/(mm|cm|in)$/.test(slump))
+    faults.push(fault("reading slump", `holds "${slump}", which is not a number`, 'e.g. "180, 175, 190"'));
+  if (!slump) faults.push(fault("--slump", "is missing, and every other reading", "e.g. --slump 180"));
+  return faults;
+}
+
+const calls = {
+  version: () => ({ ok: { version: "test", engine: "0", kernels: "none" } }),
+  presets: () => ({
+    ok: [
+      preset("abrams", "Abrams cone", [200, 100, 300]),
+      preset("hinged-plate", "Cone on a hinged plate", [200, 130, 200], { drops: 1 }),
+      preset("astm-c1437", "Flow mould on its table", [100, 70, 50], { drops: 25 }),
+    ],
+  }),
+  new: (request) => {
+    const faults = faultsOf(request);
+    if (faults.length > 0) return { faults };
+    const { title = "my paste", ...asked } = request;
+    const lab = text({ format: "pastefit-lab-1", title, asked });
+    return { ok: { lab, study: text({ format: "pastefit-study-1", title }), notes: ["a note on the sheet"] } };
+  },
+  open: ({ lab, study, seed = 1, stored }) => {
+    const { title } = read(study);
+    if (title.startsWith("refused")) return { faults: [fault("lab.json: title", "is refused", "another title")] };
+    search = { title, seed, lab: read(lab), answers: [...stored], asked: 0, stopped: false, fresh: [] };
+    return { ok: { title, parameters: ["strength_pa"], readings: ["step1.slump_mm"], budget } };
+  },
+  suggest: ({ count }) => {
+    const left = budget - search.answers.length - search.asked;
+    const tasks = Array.from({ length: Math.min(count, left) }, (_, k) => ({
+      id: `${Date.now()}-${search.asked + k}`,
+      task: JSON.stringify({ title: search.title, number: search.asked + k }),
+    }));
+    search.asked += tasks.length;
+    return { ok: tasks };
+  },
+  ingest: (answers) => {
+    search.asked -= answers.length;
+    search.answers.push(...answers);
+    return { ok: { finished: search.answers.length >= budget, records: answers } };
+  },
+  progress: () => ({
+    ok: {
+      phase: search.answers.length < 8 ? "search" : "confirmation",
+      simulations: search.answers.length,
+      budget,
+      best_error: search.answers.length > 0 ? 0.5 : -1,
+      readings: [{ name: "step1.slump_mm", measured: 181.7, simulated: 180, tolerance: 7.5 }],
+      why: "the best candidate is not confirmed yet",
+      sheared: [1, 3],
+    },
+  }),
+  stop: () => {
+    search.stopped = true;
+    return { ok: {} };
+  },
+  result: () => {
+    const status = search.stopped ? "stopped" : "confirmed";
+    const card = { format: "pastefit-card-6", title: search.title, search: { status, seed: search.seed } };
+    const shown = search.title.replace(/[&<>]/g, (letter) => `&#${letter.charCodeAt(0)};`);
+    const script = '<script>document.body.append("drawn")</script>';
+    const report = `<!doctype html><title>report</title><h1>${shown}</h1>${script}`;
+    return { ok: { status, card: text(card), summary: `${search.title}\n${status}\n`, report } };
+  },
+  export: ({ target }) =>
+    target === "yade"
+      ? { faults: [fault("--to yade", "has no such law", "another target")] }
+      : {
+          ok: {
+            files: [
+              { name: `in.${target}`, text: `# ${target}\n` },
+              { name: "README.txt", text: "read\n" },
+            ],
+          },
+        },
+  simulate: ({ task }) => {
+    const { title, number } = JSON.parse(task);
+    simulated += 1;
+    if (title.startsWith("killer") && simulated === 3) throw new Error("out of memory");
+    const end = performance.now() + (title.startsWith("slow") ? 400 : 60);
+    while (performance.now() < end);
+    return {
+      ok: {
+        answer: `${number}`,
+        outline: [
+          [-150, 0],
+          [-80, 90],
+          [0, 120],
+          [80, 90],
+          [150, 0],
+        ],
+      },
+    };
+  },
+};
+
+/** Places in a memory that there is not: the texts themselves. */
+const texts = new Map();
+let places = 0;
+const stringToNewUTF8 = (content) => {
+  places += 1;
+  texts.set(places, content);
+  return places;
+};
+
+self.createPastefit = async ({ instantiateWasm }) => {
+  await new Promise((resolve) => instantiateWasm({}, resolve));
+  return {
+    stringToNewUTF8,
+    UTF8ToString: (place) => texts.get(place),
+    _free: (place) => texts.delete(place),
+    _pastefit_call: (name, request) =>
+      stringToNewUTF8(JSON.stringify(calls[texts.get(name)](JSON.parse(texts.get(request))))),
+  };
+};
