@@ -1,9 +1,13 @@
 #!/usr/bin/env python3
-"""Tests of the page of a calibration that need npm, node and a browser; skipped (status 77) without them.
+"""Tests of the page of a calibration, and of the page that calibrates, which need npm, node and a browser; skipped (status 77)
+without them.
 
-usage: run.py sources SOURCE_DIR WORK_DIR            checks the page's scripts: format, ESLint, types, unit tests
+usage: run.py sources SOURCE_DIR WORK_DIR            checks the pages' scripts: format, ESLint, types, unit tests
        run.py bundle SOURCE_DIR WORK_DIR             rebuilds the page and compares it with the shipped one
        run.py browser PROGRAM SOURCE_DIR WORK_DIR    tests the page of a calibration in Chromium
+       run.py calibrator SOURCE_DIR WORK_DIR         tests the page that calibrates in Chromium, with a module that only waits
+       run.py module SOURCE_DIR WORK_DIR FOLDER      the same with the module in FOLDER, pastefit.js and pastefit.wasm: calibrates
+                                                     a sheet, some minutes; the page is WORK_DIR/pastefit.html
        run.py picture PROGRAM SOURCE_DIR WORK_DIR    makes the picture of the README, of the first example's card
        run.py map PROGRAM SOURCE_DIR WORK_DIR        calibrates that, some minutes, and draws the map of the misfit
 
@@ -21,7 +25,7 @@ import sys
 import time
 
 SKIPPED = 77
-PAGE, TESTS = "calibrate/report/page", "tests/page"
+PAGE, CALIBRATOR, TESTS = "calibrate/report/page", "calibrate/browser/page", "tests/page"
 EXAMPLE = "concrete-mix-79"  # that of .ci/try
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> &lt;b&gt;"
 
@@ -35,6 +39,11 @@ def need(*commands):
     for command in commands:
         if not shutil.which(command):
             skip(f"there is no {command} (.ci/install .ci/packages-page.txt)")
+
+
+def need_chromium():
+    if not any(pathlib.Path("/usr/bin", name).exists() for name in ("chromium-headless-shell", "chromium")):
+        skip("there is no Chromium (.ci/install .ci/packages-page.txt)")
 
 
 def packages_of(page, place):
@@ -58,11 +67,11 @@ def packages_of(page, place):
 
 
 def with_packages(source, work, name):
-    """Copies the page's sources and tests, without what was built of them, and gives them packages: both folders."""
+    """Copies the pages' sources and tests, without what was built of them, and gives them packages: two of the folders."""
     packages_of(source / PAGE, work / "packages")
     tree = work / name
     shutil.rmtree(tree, ignore_errors=True)
-    for folder in (PAGE, TESTS):
+    for folder in (PAGE, CALIBRATOR, TESTS):
         shutil.copytree(source / folder, tree / folder, ignore=shutil.ignore_patterns("node_modules", "built"))
         (tree / folder / "node_modules").symlink_to(work / "packages/node_modules")
     shutil.copy(source / ".prettierrc.json", tree)
@@ -156,8 +165,7 @@ def interrupted(program, study, place):
 
 
 def browser(program, source, work):
-    if not any(pathlib.Path("/usr/bin", name).exists() for name in ("chromium-headless-shell", "chromium")):
-        skip("there is no Chromium (.ci/install .ci/packages-page.txt)")
+    need_chromium()
     _, tests = with_packages(source, work, "browser")
     result = work / "result"
     study = source / "tests/reliability/coarse-study.json"
@@ -174,6 +182,29 @@ def browser(program, source, work):
                        PASTEFIT_LIVE=str(work / "interrupted/live.html"), PASTEFIT_PARTS=str(work / "parts"),
                        PASTEFIT_SHOTS=str(work / "shots"))
     sys.exit(subprocess.run(["node", "--test", "page.test.js"], cwd=tests, env=environment).returncode)
+
+
+def calibrate_in_browser(source, work, name, loader, module, test):
+    """Builds the page with a module, and runs a test of it."""
+    _, tests = with_packages(source, work, name)
+    page, shots = work / f"{name}.html", work / "shots"
+    shots.mkdir(exist_ok=True)
+    subprocess.run(["node", "build.mjs", loader, module, page], cwd=tests.parents[1] / CALIBRATOR, check=True)
+    environment = dict(os.environ, PASTEFIT_CALIBRATOR=str(page), PASTEFIT_SHOTS=str(shots))
+    sys.exit(subprocess.run(["node", "--test", test], cwd=tests / "calibrator", env=environment).returncode)
+
+
+def calibrator(source, work):
+    need_chromium()
+    work.mkdir(parents=True, exist_ok=True)
+    (work / "empty.wasm").write_bytes(b"\0asm\1\0\0\0")
+    loader = source / TESTS / "calibrator/fake.js"
+    calibrate_in_browser(source, work, "calibrator", loader, work / "empty.wasm", "calibrator.test.js")
+
+
+def module(source, work, folder):
+    need_chromium()
+    calibrate_in_browser(source, work, "pastefit", folder / "pastefit.js", folder / "pastefit.wasm", "module.test.js")
 
 
 def picture(program, source, work):
@@ -199,7 +230,8 @@ def picture_of_map(program, source, work):
 def main():
     need("node", "npm")
     what, *places = sys.argv[1:]
-    verbs = {"sources": sources, "bundle": bundle, "browser": browser, "picture": picture, "map": picture_of_map}
+    verbs = {"sources": sources, "bundle": bundle, "browser": browser, "calibrator": calibrator, "module": module,
+             "picture": picture, "map": picture_of_map}
     verbs[what](*[pathlib.Path(place).resolve() for place in places])
 
 

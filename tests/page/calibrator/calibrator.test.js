@@ -2,11 +2,11 @@
 //   PASTEFIT_CALIBRATOR  the page, built with fake.js
 //   PASTEFIT_SHOTS       a folder for pictures of the page, to be looked at by a person
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { strFromU8, unzipSync } from "fflate";
-import { openBrowser, openPage } from "../browser.js";
+import { openBrowser } from "../browser.js";
+import { calibrate, onPageOf, saved, verdict } from "./on_page.js";
 
 /** @typedef {import("../browser.js").OpenedPage} OpenedPage */
 
@@ -20,47 +20,8 @@ before(async () => {
 });
 after(async () => browser.close());
 
-/**
- * The page with its form; it is closed after `use`, and has to be without a fault and without a request.
- * @param {(page: OpenedPage) => Promise<void>} use
- * @param {import("playwright-core").BrowserContextOptions} options
- */
-async function onPage(use, options = {}) {
-  const page = await openPage(browser, file, { locale: "en-GB", ...options });
-  await page.locator("form").waitFor();
-  await use(page);
-  assert.deepEqual(page.faults, []);
-  const asked = page.requests.filter((url) => !/^(?:data|blob|about):/.test(url) && url !== page.own);
-  assert.deepEqual(asked, []);
-  await page.context().close();
-}
-
-/**
- * Fills the form in and begins.
- * @param {OpenedPage} page
- * @param {Record<string, string>} values
- */
-async function calibrate(page, values = {}) {
-  const sheet = { title: "mix 7", density: "2350", slump: "180, 175, 190", spread: "330", workers: "2", ...values };
-  for (const [name, value] of Object.entries(sheet)) await page.locator(`#field-${name}`).fill(value);
-  await page.locator("form button.main").click();
-}
-
-/** @param {OpenedPage} page */
-const verdict = (page) => page.locator("#verdict strong").textContent({ timeout: 20_000 });
-
-/**
- * What a click has the browser save.
- * @param {OpenedPage} page
- * @param {string} name of the button
- */
-async function saved(page, name) {
-  const [download] = await Promise.all([
-    page.waitForEvent("download"),
-    page.getByRole("button", { name, exact: true }).click(),
-  ]);
-  return { name: download.suggestedFilename(), content: readFileSync(await download.path()) };
-}
+/** @type {(use: (page: OpenedPage) => Promise<void>, options?: object) => Promise<void>} */
+const onPage = (use, options) => onPageOf(browser, file, use, options);
 
 test("a sheet becomes a card, with two workers", () =>
   onPage(async (page) => {

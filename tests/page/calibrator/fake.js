@@ -1,6 +1,7 @@
 // A module with the interface of calibrate/browser for tests of the page: it "simulates" by waiting, and confirms after
 // so many answers. It is given to the build in place of the real one, with a module of WebAssembly that is empty.
-// A title begins with what is to go wrong: "killer" ends each worker at its third simulation, "refused" refuses the study.
+// A title begins with what is to go wrong: "killer" ends each worker at its third simulation, "refused" refuses the
+// study.
 // @ts-nocheck: what is asked is known to the page's own types
 
 const budget = 12;

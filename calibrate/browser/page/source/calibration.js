@@ -41,7 +41,7 @@ export class Calibration {
     this.stopping = false;
     this.changed = () => {};
     this.loop = new SearchLoop(this.search, this.pool, {
-      keep: (added) => this.keep(added),
+      keep: (added, progress) => this.keep(added, progress),
       show: (progress, outline) => this.show(progress, outline),
     });
   }
@@ -74,14 +74,17 @@ export class Calibration {
     if (this.before.simulations < 0) this.before.simulations = progress.simulations;
     this.progress = progress;
     this.outline = outline;
-    this.saved.simulations = progress.simulations;
-    this.saved.seconds = this.before.seconds + this.session;
     this.changed();
   }
 
-  /** @param {unknown[]} added */
-  async keep(added) {
+  /**
+   * @param {unknown[]} added
+   * @param {Progress} progress
+   */
+  async keep(added, progress) {
     this.records.push(...added);
+    this.saved.simulations = progress.simulations;
+    this.saved.seconds = this.before.seconds + this.session;
     try {
       await this.keeper?.append(this.saved, added);
       this.lost = null;

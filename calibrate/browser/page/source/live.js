@@ -51,15 +51,17 @@ function nameOf(name, texts) {
  * @param {Texts} texts
  */
 function readingsTable({ readings }, texts) {
-  const heads = [texts.reading, texts.measured, texts.simulated, texts.tolerance];
+  const heads = [texts.reading, texts.measured, texts.simulated, texts.tolerance, texts.within];
   const head = element(
     "tr",
     {},
     ...heads.map((one, k) => element("th", { scope: "col", class: k > 0 ? "number" : null }, one)),
   );
   const rows = readings.map(({ name, measured, simulated, tolerance }) => {
-    const isMet = typeof simulated === "number" && Math.abs(simulated - measured) <= tolerance;
-    const cells = [number(measured), number(simulated), `\u00b1 ${number(tolerance, 3)}`];
+    const isKnown = typeof simulated === "number";
+    const isMet = isKnown && Math.abs(simulated - measured) <= tolerance;
+    const within = isMet ? texts.yes : texts.no;
+    const cells = [number(measured), number(simulated), `\u00b1 ${number(tolerance, 3)}`, isKnown ? within : ""];
     return element(
       "tr",
       { class: isMet ? "met" : null },
@@ -82,11 +84,8 @@ function heapFigure(outline, texts) {
   const closed = [...points, [points[points.length - 1][0], foot], [points[0][0], foot]];
   const heap = svgElement("polygon", { points: closed.map((one) => one.join(",")).join(" "), class: "heap" });
   const line = svgElement("polyline", { points: points.map((one) => one.join(",")).join(" "), class: "own" });
-  return element(
-    "figure",
-    { class: "latest" },
-    svgPicture(size, "candidate-picture sketch", texts.heapNow, [heap, line]),
-  );
+  const picture = svgPicture(size, "candidate-picture sketch", texts.heapNow, [heap, line]);
+  return element("figure", { class: "latest" }, picture, element("figcaption", { class: "note" }, texts.heapNow));
 }
 
 /**

@@ -64,11 +64,11 @@ export class ModuleWorker {
   take({ id, answer, died }) {
     if (died !== undefined) return this.die(died);
     const asked = this.waiting.get(id);
-    this.waiting.delete(id);
     if (!asked) return;
     if (answer?.faults) asked.reject(new Refusal(answer.faults));
     else if (answer && "ok" in answer) asked.resolve(answer.ok);
-    else this.die("an answer is neither a result nor a list of faults");
+    else return this.die("an answer is neither a result nor a list of faults");
+    this.waiting.delete(id);
   }
 
   /** @param {string} why */

@@ -98,7 +98,7 @@ export function mouldDrawing({ base_diameter_mm: base, top_diameter_mm: top, hei
       lettering([middle - wide / 2, below + 17], texts.spread, "start"),
       lettering([middle, rim - 6], `\u2300 ${number(top)} mm`),
       lettering([middle, ground - 6], `\u2300 ${number(base)} mm`),
-      lettering([middle - Math.max(wide, scale * base) / 2, rim + 14], `${number(tall)} mm`, "start"),
+      lettering([middle - (scale * Math.max(base, top)) / 2 - 4, rim + 14], `${number(tall)} mm`, "end"),
     ],
   );
 }

@@ -21,7 +21,7 @@ import { WorkerDied } from "./module_worker.js";
 
 /**
  * @typedef {object} Watcher
- * @property {(records: unknown[]) => Promise<void>} keep stores records
+ * @property {(records: unknown[], progress: Progress) => Promise<void>} keep stores records
  * @property {(progress: Progress, outline: Outline | null) => void} show
  */
 
@@ -67,8 +67,9 @@ export class SearchLoop {
   /** Hands over what has arrived. */
   async ingest() {
     const { finished, records } = await this.search.call("ingest", this.arrived.splice(0));
-    if (records.length > 0) await this.watcher.keep(records);
-    this.watcher.show(await this.search.call("progress", {}), this.outline);
+    const progress = await this.search.call("progress", {});
+    if (records.length > 0) await this.watcher.keep(records, progress);
+    this.watcher.show(progress, this.outline);
     return Boolean(finished);
   }
 

@@ -101,6 +101,7 @@ function mouldOf(values) {
  * @param {Values} values
  * @param {Preset[]} presets
  * @param {string[]} confirmed places
+ * @returns {Record<string, unknown>}
  */
 export function requestOf(values, presets, confirmed) {
   const preset = chosenPreset(values, presets);
