@@ -54,11 +54,11 @@ HeapWidth width_of(const SlumpTest& test, std::span<const Measurement> measured)
   return share < narrow ? HeapWidth::narrow : share > wide ? HeapWidth::wide : HeapWidth::ordinary;
 }
 
-/// Laws named in the sheet, otherwise those of the target that suit the readings. Heaps that keep more than half of their
-/// height get elasto-plastic adhesion where the target has it, because heaps of its other laws shear off or keep the
-/// mould's shape. Others get the target's first law: the strength of a bridge does not depend on the size of the mould
-/// (tests/results/laws.md). So do timed flows, because only a bridge has a viscosity, and sheets with a yield stress
-/// only.
+/// Laws named in the sheet, otherwise those of the target that suit the readings. Heaps that keep more than half of
+/// their height get elasto-plastic adhesion where the target has it, because heaps of its other laws shear off or keep
+/// the mould's shape. Others get the target's first law: the strength of a bridge does not depend on the size of the
+/// mould (tests/results/laws.md). So do timed flows, because only a bridge has a viscosity, and sheets with a yield
+/// stress only.
 ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
                    std::span<const Measurement> measured) {
   constexpr double stands = 0.5;
@@ -73,9 +73,8 @@ ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest&
   }
   const auto* height = find_measurement(measured, "step1.height_mm");
   if (height && height->value > 1e3 * stands * test.mould.height_m)
-    return {*epa,
-            "More than half of the height is left: heaps of " + std::string(named.law) +
-                " shear off there, heaps of elasto-plastic adhesion stand"};
+    return {*epa, "More than half of the height is left: heaps of " + std::string(named.law) +
+                      " shear off there, heaps of elasto-plastic adhesion stand"};
   if (width_of(test, measured) == HeapWidth::narrow)
     return {*epa, "The heap is narrow: heaps of elasto-plastic adhesion that stick to the table are"};
   return first;
