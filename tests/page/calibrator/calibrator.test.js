@@ -25,7 +25,7 @@ const onPage = (use, options) => onPageOf(browser, file, use, options);
 
 test("a sheet becomes a card, with two workers", () =>
   onPage(async (page) => {
-    await calibrate(page);
+    await calibrate(page, { title: "slow mix" });
     await page.locator("#run").waitFor();
     assert.match(await page.locator("#run").innerText(), /Slump \[mm\]\s+181\.7\s+180/);
     await page.locator(".latest svg").waitFor();
@@ -33,8 +33,19 @@ test("a sheet becomes a card, with two workers", () =>
     assert.equal(await verdict(page), "The material is confirmed");
     const focused = () => document.activeElement?.id;
     assert.equal(await page.evaluate(focused), "verdict-heading");
-    assert.equal(await page.frameLocator("iframe.report").locator("body").innerText(), "mix 7\ndrawn");
+    assert.equal(await page.frameLocator("iframe.report").locator("body").innerText(), "slow mix\ndrawn");
     if (shots) await page.screenshot({ path: join(shots, "calibrator-result.png"), fullPage: true });
+  }));
+
+test("the report opens in a tab of its own, too", () =>
+  onPage(async (page) => {
+    await calibrate(page);
+    await verdict(page);
+    const [tab] = await Promise.all([
+      page.context().waitForEvent("page"),
+      page.getByRole("button", { name: "Open the report in a tab of its own" }).click(),
+    ]);
+    assert.equal(await tab.locator("body").innerText(), "mix 7\ndrawn");
   }));
 
 test("every file can be saved, and all of them as one archive", () =>

@@ -69,6 +69,20 @@ export class App {
     }
   }
 
+  /**
+   * Does what a button asks for; what goes wrong is said on the first view.
+   * @param {() => Promise<void>} work
+   */
+  async attempt(work) {
+    try {
+      await work();
+    } catch (error) {
+      console.warn(error);
+      this.notice = saidBy(error);
+      this.show(() => this.start());
+    }
+  }
+
   async home() {
     this.calibration = null;
     this.saved = (await this.storage?.all()) ?? [];
@@ -116,7 +130,11 @@ export class App {
   /** @returns {Node[]} */
   start() {
     const texts = this.texts;
-    const kept = { resume: this.resume.bind(this), show: this.showSaved.bind(this), remove: this.remove.bind(this) };
+    const kept = {
+      resume: (/** @type {Saved} */ one) => this.attempt(() => this.resume(one)),
+      show: (/** @type {Saved} */ one) => this.attempt(() => this.showSaved(one)),
+      remove: (/** @type {Saved} */ one) => this.attempt(() => this.remove(one)),
+    };
     const actions = {
       submit: () => this.submit(),
       confirm: (/** @type {string} */ place) => {
@@ -146,7 +164,7 @@ export class App {
       input.value = "";
       const sheet = sheetOf(contents);
       if (typeof sheet === "string") said.textContent = texts[sheet];
-      else await this.begin(sheet, (faults) => (said.textContent = new Refusal(faults).message));
+      else await this.attempt(() => this.begin(sheet, (faults) => (said.textContent = new Refusal(faults).message)));
     });
     const label = element("label", { for: "files" }, texts.files);
     return section(
@@ -288,6 +306,8 @@ export class App {
    */
   failed(calibration, why) {
     const texts = this.texts;
+    const resume = () => void this.attempt(() => this.resume(calibration.saved));
+    const restart = () => void this.attempt(() => this.home());
     return [
       element(
         "section",
@@ -298,12 +318,8 @@ export class App {
         element(
           "div",
           { class: "row" },
-          element(
-            "button",
-            { class: "main", type: "button", onclick: () => this.resume(calibration.saved) },
-            texts.resume,
-          ),
-          element("button", { type: "button", onclick: () => this.home() }, texts.newSheet),
+          element("button", { class: "main", type: "button", onclick: resume }, texts.resume),
+          element("button", { type: "button", onclick: restart }, texts.newSheet),
         ),
       ),
     ];
@@ -324,8 +340,9 @@ export class App {
         exports.set(target, made);
         return made;
       },
-      resume: () => void this.resume(saved),
-      restart: () => void this.home(),
+      resume: (/** @type {number | undefined} */ budget) =>
+        void this.attempt(() => this.resume({ ...saved, budget: budget ?? saved.budget })),
+      restart: () => void this.attempt(() => this.home()),
     };
     return resultView(saved, result, actions, this.texts);
   }

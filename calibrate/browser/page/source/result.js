@@ -5,6 +5,7 @@ import { english } from "./fields.js";
 import { archiveOf, filesOf, folderName, save, targets } from "./files.js";
 import { fill, wordOf } from "./language.js";
 import { Refusal } from "./module_worker.js";
+import { wholeNumber } from "./sheet.js";
 
 /** @typedef {import("./files.js").Result} Result */
 /** @typedef {import("./files.js").TextFile} TextFile */
@@ -14,7 +15,7 @@ import { Refusal } from "./module_worker.js";
 /**
  * @typedef {object} ResultActions
  * @property {(target: string) => Promise<TextFile[]>} exported its files; a Refusal where the target lacks the law
- * @property {() => void} resume
+ * @property {(budget?: number) => void} resume with as many simulations at most
  * @property {() => void} restart
  */
 
@@ -53,10 +54,27 @@ function verdictPart(saved, { status, card }, actions, texts) {
     element(
       "div",
       { class: "row" },
-      status === "confirmed" ? null : button(texts.resume, actions.resume, texts.resumeHint),
+      ...(status === "confirmed" ? [] : resumePart(saved, actions, texts)),
       button(texts.newSheet, actions.restart),
     ),
   );
+}
+
+/**
+ * A search that has used up its simulations goes on with more.
+ * @param {Saved} saved
+ * @param {ResultActions} actions
+ * @param {Texts} texts
+ */
+function resumePart({ budget, simulations }, actions, texts) {
+  const most = element("input", {
+    type: "number",
+    min: 1,
+    id: "more",
+    value: budget ?? Math.max(150, 2 * simulations),
+  });
+  const resume = () => actions.resume(wholeNumber(most.value));
+  return [button(texts.resume, resume, texts.resumeHint), element("label", { class: "choice" }, texts.budget, most)];
 }
 
 /**
