@@ -137,7 +137,7 @@ const stringToNewUTF8 = (content) => {
   return places;
 };
 
-self.createPastefit = async ({ instantiateWasm }) => {
+self.pastefit = async ({ instantiateWasm }) => {
   await new Promise((resolve) => instantiateWasm({}, resolve));
   return {
     stringToNewUTF8,

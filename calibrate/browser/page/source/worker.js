@@ -3,7 +3,8 @@
 
 /**
  * @typedef {object} Instance what the loader makes (calibrate/browser)
- * @property {(text: string) => number} stringToNewUTF8
+ * @property {(name: string, result: string, kinds: string[], values: string[]) => string} ccall
+ * @property {(text: string) => number} [stringToNewUTF8]
  * @property {(place: number) => string} UTF8ToString
  * @property {(place: number) => void} _free
  * @property {(name: number, request: number) => number} _pastefit_call
@@ -16,7 +17,7 @@ const scope = /** @type {any} */ (self);
 
 /** @param {WebAssembly.Module} compiled */
 function instanceOf(compiled) {
-  const load = /** @type {Loader} */ (scope.createPastefit);
+  const load = /** @type {Loader} */ (scope.pastefit);
   return new Promise((resolve, reject) => {
     /** @type {Instantiate} */
     const instantiateWasm = (imports, made) => {
@@ -28,16 +29,18 @@ function instanceOf(compiled) {
 }
 
 /**
+ * The answer of the module as a text. A request goes through the heap where the loader can do that: `ccall` puts it on
+ * the stack, which the records of a long search would overflow.
  * @param {Instance} instance
- * @param {string} name
- * @param {unknown} request
+ * @param {string[]} texts name and request
  */
-function answerOf(instance, name, request) {
-  const places = [name, JSON.stringify(request)].map((text) => instance.stringToNewUTF8(text));
+function answerText(instance, texts) {
+  if (!instance.stringToNewUTF8) return instance.ccall("pastefit_call", "string", ["string", "string"], texts);
+  const [name, request] = texts.map(instance.stringToNewUTF8);
   try {
-    return JSON.parse(instance.UTF8ToString(instance._pastefit_call(places[0], places[1])));
+    return instance.UTF8ToString(instance._pastefit_call(name, request));
   } finally {
-    places.forEach((place) => instance._free(place));
+    [name, request].forEach(instance._free);
   }
 }
 
@@ -51,7 +54,8 @@ async function take({ data }) {
     return;
   }
   try {
-    scope.postMessage({ id: data.id, answer: answerOf(await instance, data.name, data.request) });
+    const answer = JSON.parse(answerText(await instance, [data.name, JSON.stringify(data.request)]));
+    scope.postMessage({ id: data.id, answer });
   } catch (error) {
     // A module that has trapped or run out of memory is not used again.
     scope.postMessage({ id: data.id, died: error instanceof Error ? error.message : String(error) });
