@@ -8,13 +8,24 @@ const budget = 12;
 const preset = (name, title, [base, top, height], more = {}) => ({
   name,
   title,
-  mould: { base_diameter_mm: base, top_diameter_mm: top, height_mm: height },
+  sheet: true,
+  drops: 0,
+  caution: "",
+  apparatus: { mould: { base_diameter_mm: base, top_diameter_mm: top, height_mm: height } },
   ...more,
 });
 
 const text = (content) => `// made by a test\n${JSON.stringify(content, null, 2)}\n`;
 const read = (content) => JSON.parse(content.replace(/^\/\/.*$/gm, ""));
 const fault = (where, what, remedy) => ({ where, what, remedy });
+
+const points = [
+  [-150, 0],
+  [-80, 90],
+  [0, 120],
+  [80, 90],
+  [150, 0],
+];
 
 let search = null;
 let simulated = 0; // by this worker
@@ -43,6 +54,7 @@ const calls = {
     ok: [
       preset("abrams", "Abrams cone", [200, 100, 300]),
       preset("hinged-plate", "Cone on a hinged plate", [200, 130, 200], { drops: 1 }),
+      { name: "shear-box", title: "no mould", sheet: false, drops: 0, caution: "", apparatus: {} },
       preset("astm-c1437", "Flow mould on its table", [100, 70, 50], { drops: 25 }),
     ],
   }),
@@ -56,16 +68,17 @@ const calls = {
   open: ({ lab, study, seed = 1, stored }) => {
     const { title } = read(study);
     if (title.startsWith("refused")) return { faults: [fault("lab.json: title", "is refused", "another title")] };
-    search = { title, seed, lab: read(lab), answers: [...stored], asked: 0, stopped: false, fresh: [] };
+    search = { title, seed, lab: read(lab), answers: [...stored], asked: 0, next: 0, stopped: false, fresh: [] };
     return { ok: { title, parameters: ["strength_pa"], readings: ["step1.slump_mm"], budget } };
   },
   suggest: ({ count }) => {
     const left = budget - search.answers.length - search.asked;
     const tasks = Array.from({ length: Math.min(count, left) }, (_, k) => ({
-      id: `${Date.now()}-${search.asked + k}`,
-      task: JSON.stringify({ title: search.title, number: search.asked + k }),
+      id: search.next + k,
+      task: JSON.stringify({ title: search.title, number: search.next + k }),
     }));
     search.asked += tasks.length;
+    search.next += tasks.length;
     return { ok: tasks };
   },
   ingest: (answers) => {
@@ -78,7 +91,7 @@ const calls = {
       phase: search.answers.length < 8 ? "search" : "confirmation",
       simulations: search.answers.length,
       budget,
-      best_error: search.answers.length > 0 ? 0.5 : -1,
+      best_error: search.answers.length > 0 ? 0.5 : null,
       readings: [{ name: "step1.slump_mm", measured: 181.7, simulated: 180, tolerance: 7.5 }],
       why: "the best candidate is not confirmed yet",
       sheared: [1, 3],
@@ -94,7 +107,15 @@ const calls = {
     const shown = search.title.replace(/[&<>]/g, (letter) => `&#${letter.charCodeAt(0)};`);
     const script = '<script>document.body.append("drawn")</script>';
     const report = `<!doctype html><title>report</title><h1>${shown}</h1>${script}`;
-    return { ok: { status, card: text(card), summary: `${search.title}\n${status}\n`, report } };
+    return {
+      ok: {
+        status,
+        reason: "as it was asked",
+        card: JSON.stringify(card),
+        summary: `${search.title}\n${status}\n`,
+        report,
+      },
+    };
   },
   export: ({ target }) =>
     target === "yade"
@@ -116,13 +137,7 @@ const calls = {
     return {
       ok: {
         answer: `${number}`,
-        outline: [
-          [-150, 0],
-          [-80, 90],
-          [0, 120],
-          [80, 90],
-          [150, 0],
-        ],
+        outline: { heap: true, points },
       },
     };
   },

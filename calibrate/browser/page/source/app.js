@@ -333,10 +333,12 @@ export class App {
     document.title = `${saved.title} \u2013 pastefit`;
     /** @type {Map<string, Promise<TextFile[]>>} */
     const exports = new Map();
+    const unconfirmed = result.status !== "confirmed"; // the page has said so on top
     const actions = {
       exported: (/** @type {string} */ target) => {
         const made =
-          exports.get(target) ?? this.ask("export", { card: result.card, target }).then(({ files }) => files);
+          exports.get(target) ??
+          this.ask("export", { card: result.card, target, unconfirmed }).then(({ files }) => files);
         exports.set(target, made);
         return made;
       },

@@ -3,7 +3,14 @@ import { strToU8, zipSync } from "fflate";
 
 /** @typedef {{name: string, text: string}} TextFile */
 
-/** @typedef {{status: string, card: string, summary: string, report: string}} Result what the module gives */
+/**
+ * @typedef {object} Result what the module gives; without a material neither card nor summary
+ * @property {string} status
+ * @property {string} reason
+ * @property {string | null} card
+ * @property {string | null} summary
+ * @property {string} report
+ */
 
 /** Targets of an export (calibrate/exports). */
 export const targets = ["lammps", "liggghts", "yade", "edem-notes", "mercurydpm", "csv"];
@@ -15,6 +22,7 @@ export const targets = ["lammps", "liggghts", "yade", "edem-notes", "mercurydpm"
  * @returns {TextFile[]}
  */
 export function filesOf({ lab, study }, { card, summary, report }) {
+  /** @type {{name: string, text: string | null}[]} */
   const files = [
     { name: "lab.json", text: lab },
     { name: "study.json", text: study },
@@ -22,7 +30,7 @@ export function filesOf({ lab, study }, { card, summary, report }) {
     { name: "result/summary.txt", text: summary },
     { name: "result/report.html", text: report },
   ];
-  return files.filter(({ text }) => text);
+  return files.flatMap(({ name, text }) => (text ? [{ name, text }] : []));
 }
 
 /**

@@ -49,12 +49,15 @@ function mouldPart(state, presets, texts) {
   const preset = chosenPreset(state.values, presets);
   const shape = preset?.mould ?? typedMould(state.values);
   /** @type {[string, string][]} */
-  const choices = [...presets.map(({ name, title }) => /** @type {[string, string]} */ ([name, title || name]))];
+  const choices = [...presets.map(({ name, title }) => /** @type {[string, string]} */ ([name, title]))];
   const own = state.values.mould === ownMould;
   return group(
     texts.material,
     textField(state, "title", texts.title, texts.titleHint),
-    choiceField(state, "mould", texts.mould, [...choices, [ownMould, texts.own]], { redraws: true }),
+    choiceField(state, "mould", texts.mould, [...choices, [ownMould, texts.own]], {
+      hint: preset?.caution,
+      redraws: true,
+    }),
     own
       ? row(
           textField(state, "base", texts.base, null, { required: true, inputmode: "decimal" }),

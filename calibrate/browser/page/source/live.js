@@ -93,7 +93,7 @@ function heapFigure(outline, texts) {
  * @param {Texts} texts
  */
 function facts({ progress, seconds, remaining }, texts) {
-  const error = progress && progress.best_error >= 0 ? number(progress.best_error, 2) : null;
+  const error = progress && progress.best_error !== null ? number(progress.best_error, 2) : null;
   const [sheared, heaps] = progress?.sheared ?? [0, 0];
   /** @type {[string, string | HTMLElement][]} */
   const entries = [

@@ -4,6 +4,7 @@ import { App } from "./app.js";
 import { languageOf, textsOf } from "./language.js";
 import { ModuleWorker } from "./module_worker.js";
 import { embeddedModule } from "./packed.js";
+import { presetsOf } from "./sheet.js";
 import { Storage } from "./storage.js";
 
 const place = document.getElementById("page") ?? document.body;
@@ -20,7 +21,7 @@ async function start() {
   const first = openWorker();
   const [storage, presets] = await Promise.all([Storage.open(), first.call("presets", {})]);
   first.end();
-  await new App(place, openWorker, storage, presets).home();
+  await new App(place, openWorker, storage, presetsOf(presets)).home();
 }
 
 start().catch((error) => {

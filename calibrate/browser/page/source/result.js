@@ -28,9 +28,8 @@ const kinds = { confirmed: "meets", failed: "fails", out_of_reach: "fails" };
  * @param {ResultActions} actions
  * @param {Texts} texts
  */
-function verdictPart(saved, { status, card }, actions, texts) {
+function verdictPart(saved, { status, reason, card }, actions, texts) {
   const hint = Object.hasOwn(texts.statusHints, status) ? wordOf(texts.statusHints, status) : null;
-  const reason = reasonOf(card);
   const time = duration(Math.round(saved.seconds));
   const took = fill(texts.took, { simulations: saved.simulations, time, seed: saved.seed ?? seedOf(card) });
   const badge = { confirmed: "\u2713", failed: "\u2715", out_of_reach: "\u2715" }[status] ?? "!";
@@ -84,20 +83,8 @@ function resumePart({ budget, simulations }, actions, texts) {
  */
 const button = (words, onclick, title = null) => element("button", { type: "button", onclick, title }, words);
 
-/** @param {string} card */
-function searchOf(card) {
-  try {
-    return JSON.parse(card).search ?? {};
-  } catch {
-    return {}; // there is no card where no candidate could be simulated
-  }
-}
-
-/** @param {string} card */
-const reasonOf = (card) => String(searchOf(card).reason ?? "");
-
-/** @param {string} card */
-const seedOf = (card) => String(searchOf(card).seed ?? "1");
+/** @param {string | null} card */
+const seedOf = (card) => String(card ? (JSON.parse(card).search?.seed ?? 1) : 1);
 
 /**
  * The files of a target, once they are asked for.
@@ -216,7 +203,9 @@ export function resultView(saved, result, actions, texts) {
   return [
     verdictPart(saved, result, actions, texts),
     downloadsPart(saved, result, actions, texts),
-    section("summary", texts.summary, null, element("pre", { tabindex: "0", ...english }, result.summary)),
+    result.summary
+      ? section("summary", texts.summary, null, element("pre", { tabindex: "0", ...english }, result.summary))
+      : null,
     reportPart(result.report, texts),
   ].filter((one) => one !== null);
 }

@@ -4,14 +4,14 @@ import { WorkerDied } from "./module_worker.js";
 
 /** @typedef {import("./module_worker.js").Caller} Caller */
 /** @typedef {import("./pool.js").Pool} Pool */
-/** @typedef {{id: number | string, answer: string}} Answer */
+/** @typedef {{id: number, answer: string} | {id: number, error: string}} Answer an error: it could not be run */
 
 /**
  * @typedef {object} Progress
  * @property {string} phase
  * @property {number} simulations
  * @property {number} budget
- * @property {number} best_error below 0: none yet
+ * @property {number | null} best_error null: none yet
  * @property {{name: string, measured: number, simulated?: number | null, tolerance: number}[]} readings
  * @property {string} [why] it goes on
  * @property {[number, number]} [sheared] heaps of how many
@@ -39,6 +39,7 @@ export class SearchLoop {
     this.arrived = [];
     this.running = 0;
     this.stopping = false;
+    this.succeeded = false;
     /** @type {Error | null} */
     this.fault = null;
     /** @type {Outline | null} */
@@ -83,20 +84,31 @@ export class SearchLoop {
   }
 
   /**
-   * @param {number | string} id
+   * @param {number} id
    * @param {string} task
    */
   async simulate(id, task) {
     this.running += 1;
     try {
       const { answer, outline } = await this.pool.run(task);
-      this.outline = outline?.length > 0 ? outline : this.outline;
+      if (outline?.heap && outline.points.length > 0) this.outline = outline.points;
       this.arrived.push({ id, answer });
+      this.succeeded = true;
     } catch (error) {
-      if (!this.stopping) this.fault ??= error instanceof Error ? error : new WorkerDied(String(error));
+      if (!this.stopping) this.miss(id, error instanceof Error ? error : new WorkerDied(String(error)));
     }
     this.running -= 1;
     this.wake();
+  }
+
+  /**
+   * A candidate that no worker survives has failed. Where none was simulated at all, it is the computer that cannot.
+   * @param {number} id
+   * @param {Error} error
+   */
+  miss(id, error) {
+    if (error instanceof WorkerDied && this.succeeded) this.arrived.push({ id, error: error.message });
+    else this.fault ??= error;
   }
 
   /** Ends the simulations that run; the best so far becomes the result. */

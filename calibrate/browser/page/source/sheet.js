@@ -15,9 +15,34 @@
  * @property {string} name
  * @property {string} title
  * @property {Mould} mould
- * @property {number} [drops] of its plate or table; none: it has neither
- * @property {boolean} [flank] an angle of repose is read
+ * @property {number} drops of its plate or table; 0: it has neither
+ * @property {boolean} flank an angle of repose is read
+ * @property {string} caution empty, or what to mind with it
  */
+
+/**
+ * A preset as the module gives it.
+ * @typedef {object} KnownPreset
+ * @property {string} name
+ * @property {string} title
+ * @property {boolean} sheet whether a sheet may name it
+ * @property {number} drops
+ * @property {string} caution
+ * @property {{mould: Mould, reading?: {flank?: object}}} apparatus
+ */
+
+/**
+ * The moulds that a sheet may name.
+ * @param {KnownPreset[]} known
+ * @returns {Preset[]}
+ */
+export function presetsOf(known) {
+  return known
+    .filter(({ sheet }) => sheet)
+    .map(({ name, title, drops, caution, apparatus: { mould, reading } }) => {
+      return { name, title: title || name, mould, drops, flank: Boolean(reading?.flank), caution };
+    });
+}
 
 /** @typedef {Record<string, string>} Values texts by the name of their field */
 
@@ -109,7 +134,11 @@ export function requestOf(values, presets, confirmed) {
   const request = { mould: mouldOf(values), density: withUnit(values.density, values.densityUnit, "kg/m3") };
   const laws = lawsOf[/** @type {keyof typeof lawsOf} */ (values.for)] ?? [];
   const law = laws.includes(values.law) ? values.law : "";
-  const plain = [["law", law], ...["title", "for", "yield-stress"].map((name) => [name, values[name]])];
+  const plain = [
+    ["law", law],
+    ["yield_stress", values["yield-stress"]],
+    ...["title", "for"].map((name) => [name, values[name]]),
+  ];
   for (const [name, text] of [...plain, ["grains", withUnit(values.grains, values.lengthUnit, "mm")]])
     if (text?.trim()) request[name] = text.trim();
   if ((preset?.drops ?? 0) > 0 && values.drops?.trim()) request.drops = Number(values.drops);

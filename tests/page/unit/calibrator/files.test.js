@@ -27,9 +27,9 @@ test("a folder is named after its title, by letters that every system takes", ()
 });
 
 test("a result without a card has no file of one", () => {
-  const result = { status: "failed", card: "", summary: "why", report: "" };
+  const result = { status: "failed", reason: "", card: null, summary: null, report: "<p>why" };
   const names = filesOf({ lab: "{}", study: "{}" }, result).map(({ name }) => name);
-  assert.deepEqual(names, ["lab.json", "study.json", "result/summary.txt"]);
+  assert.deepEqual(names, ["lab.json", "study.json", "result/report.html"]);
 });
 
 test("what the build packed is unpacked to the same bytes", async () => {

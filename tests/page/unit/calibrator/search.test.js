@@ -80,10 +80,18 @@ test("a stop ends it at once, also while simulations run", async () => {
   assert.ok(seen.stopped);
 });
 
-test("a simulation that cannot be run ends it with the reason", async () => {
-  const { loop } = loopOf([5], async (task) => {
-    if (task === "2") throw new WorkerDied("out of memory");
+test("a candidate that no worker survives has failed, and the search goes on", async () => {
+  const { loop, seen } = loopOf([2, 3], async (task) => {
+    if (task === "3") throw new WorkerDied("out of memory");
     return echo(task);
+  });
+  assert.equal(await loop.run(), "finished");
+  assert.equal(seen.answers.filter((one) => one === undefined).length, 1);
+});
+
+test("where no simulation can be run at all, it ends with the reason", async () => {
+  const { loop } = loopOf([5], async () => {
+    throw new WorkerDied("out of memory");
   });
   await assert.rejects(loop.run(), /out of memory/);
 });

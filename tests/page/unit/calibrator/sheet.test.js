@@ -1,15 +1,19 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { faultsOfNumbers, requestOf, withUnit } from "../../../../calibrate/browser/page/source/sheet.js";
+import { faultsOfNumbers, presetsOf, requestOf, withUnit } from "../../../../calibrate/browser/page/source/sheet.js";
 import { sheetOf } from "../../../../calibrate/browser/page/source/saved_sheet.js";
 import { typedMould } from "../../../../calibrate/browser/page/source/mould.js";
 
 const mould = { base_diameter_mm: 200, top_diameter_mm: 100, height_mm: 300 };
+/** @typedef {import("../../../../calibrate/browser/page/source/sheet.js").Preset} Preset */
+
+/** @type {(name: string, drops?: number, flank?: boolean) => Preset} */
+const preset = (name, drops = 0, flank = false) => ({ name, title: "", mould, drops, flank, caution: "" });
 const presets = [
-  { name: "abrams", title: "", mould },
-  { name: "hinged-plate", title: "", mould, drops: 1 },
-  { name: "astm-c1437", title: "", mould, drops: 25 },
-  { name: "lifted-cylinder", title: "", mould, flank: true },
+  preset("abrams"),
+  preset("hinged-plate", 1),
+  preset("astm-c1437", 25),
+  preset("lifted-cylinder", 0, true),
 ];
 const usual = { mould: "abrams", density: "2350", densityUnit: "kg/m3", lengthUnit: "mm", for: "lammps" };
 
@@ -40,6 +44,15 @@ test("a chosen unit is added to lengths and density, and not where a unit was ty
     [],
   );
   assert.deepEqual([request.density, request.slump], ["145 lb/ft3", "7 in"]);
+});
+
+test("only moulds that a sheet may name are offered", () => {
+  const known = { title: "", sheet: true, drops: 1, caution: "mind", apparatus: { mould, reading: { flank: {} } } };
+  const offered = presetsOf([
+    { ...known, name: "a" },
+    { ...known, name: "b", sheet: false },
+  ]);
+  assert.deepEqual(offered, [{ name: "a", title: "a", mould, drops: 1, flank: true, caution: "mind" }]);
 });
 
 test("only the readings of the mould are asked for", () => {
