@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
@@ -25,6 +26,13 @@ double rounding(double first, double second) {
 double widening(int readings) {
   constexpr double kOutside = 0.05, kNormalQuantile = 1.959963984540054;
   return readings > 1 ? quantile(readings - 1, kOutside) / kNormalQuantile : 1;
+}
+
+double least_deviation(const Sample& sample) {
+  constexpr double kProbability = 0.95;
+  const double freedom = sample.count - 1;
+  return sample.standard_deviation *
+         std::sqrt(freedom / boost::math::quantile(boost::math::chi_squared(freedom), kProbability));
 }
 
 ProbabilityInterval binomial_interval(int count, int trials) {

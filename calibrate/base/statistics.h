@@ -47,6 +47,10 @@ struct ProbabilityInterval {
 /// count <= trials, trials >= 1.
 ProbabilityInterval binomial_interval(int count, int trials);
 
+/// Lower 95 % limit of the standard deviation of a population, from that of a normal sample: s sqrt((n -
+/// 1)/chi^2(0.95; n - 1)). Requirement: n >= 2.
+double least_deviation(const Sample& sample);
+
 /// Factor on a standard deviation estimated from `readings` values, so that the true mean is within 1.96 standard
 /// errors with probability 0.95: t(0.975; n - 1)/1.96. 1 for a single reading: its deviation is taken as known.
 double widening(int readings);

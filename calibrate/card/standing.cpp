@@ -127,6 +127,10 @@ std::vector<AtBound> parameters_at_bounds(const Card& card) {
   return out;
 }
 
+std::string at_bound_in_words(const AtBound& one) {
+  return one.parameter + " " + plain(one.value) + " is at its " + (one.upper ? "upper" : "lower") + " bound";
+}
+
 std::string what_to_try(const Card& card) {
   const Confirmation& confirmation = card.confirmation;
   if (card.interpolated || confirmation.meets_laboratory) return "";

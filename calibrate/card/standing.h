@@ -39,6 +39,9 @@ struct AtBound {
 };
 std::vector<AtBound> parameters_at_bounds(const Card& card);
 
+/// "friction 0.3 is at its upper bound".
+std::string at_bound_in_words(const AtBound& one);
+
 /// Advice for an unconfirmed card, a sentence without a full stop; empty for confirmed and interpolated ones.
 std::string what_to_try(const Card& card);
 

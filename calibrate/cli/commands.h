@@ -18,6 +18,7 @@ Command add_calibrate(CLI::App& verb);
 Command add_check(CLI::App& verb);
 Command add_compare(CLI::App& verb);
 Command add_confirm(CLI::App& verb);
+Command add_doctor(CLI::App& verb);
 Command add_export(CLI::App& verb);
 Command add_help(CLI::App& verb);
 Command add_infer(CLI::App& verb);

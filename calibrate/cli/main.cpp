@@ -92,6 +92,7 @@ int run(int argc, char** argv) {
       {kUse, "confirm", "simulate a material card's test in LAMMPS, and write what that gives onto the card",
        add_confirm},
       {kUse, "rescale", "carry a material card to another grain size", add_rescale},
+      {kTrust, "doctor", "say of each property of a calibration whether it is fine, or what is doubtful", add_doctor},
       {kTrust, "check", "simulate cards again and compare within the noise", add_check},
       {kTrust, "verify", "hold the contact laws against closed forms, case by case", add_verify},
       {kMany, "batch", "calibrate many studies, one after the other or as an array job, and make one table",

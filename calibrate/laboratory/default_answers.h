@@ -118,6 +118,11 @@ inline std::vector<Drawing> drawings_of(const Specimen&, std::span<const SeenRun
   return {};
 }
 
+/// Narrowest opening [m] that the grains pass; nothing if there is none.
+inline std::optional<double> narrowest_opening_m(const Specimen&) {
+  return std::nullopt;
+}
+
 /// Default tolerance of a reading: one standard deviation of the measurement.
 inline double default_tolerance(const Specimen&, const Measurement& measured) {
   return measured.standard_deviation;

@@ -132,6 +132,10 @@ double default_tolerance(const SlumpTest& test, const Measurement& measured) {
   return length ? std::max(measured.standard_deviation, 0.5 * mm * test.grains.radius_m) : measured.standard_deviation;
 }
 
+std::optional<double> narrowest_opening_m(const SlumpTest& test) {
+  return std::min(2 * narrower_radius_m(test.mould), test.mould.height_m);
+}
+
 std::string unseen_by(const SlumpTest&, std::span<const std::string_view> readings,
                       std::span<const std::string_view> parameters) {
   const auto is_width = [](std::string_view name) {

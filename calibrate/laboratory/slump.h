@@ -162,6 +162,9 @@ std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun>
 /// For the shift of the top: the limit of sheared-off heaps.
 double default_tolerance(const SlumpTest& test, const Measurement& measured);
 
+/// Diameter of the narrower end of the mould, or its height if that is less.
+std::optional<double> narrowest_opening_m(const SlumpTest& test);
+
 /// The height alone does not identify friction and strength; friction affects the width.
 std::string unseen_by(const SlumpTest& test, std::span<const std::string_view> readings,
                       std::span<const std::string_view> parameters);

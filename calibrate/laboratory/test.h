@@ -157,6 +157,10 @@ std::vector<FilePlace> places_in_files(const AnyKind auto& test) {
   return std::visit([](const auto& one) { return places_in_files(one); }, test);
 }
 
+std::optional<double> narrowest_opening_m(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return narrowest_opening_m(one); }, test);
+}
+
 double default_tolerance(const AnyKind auto& test, const Measurement& measured) {
   return std::visit([&](const auto& one) { return default_tolerance(one, measured); }, test);
 }

@@ -84,10 +84,7 @@ std::string yield_stress_lines(const Card& card) {
 std::string hold_out_lines(const Card& card) {
   std::string out;
   for (const auto& test : card.tests)
-    if (test.within_noise)
-      out += "Hold-out " + test.name +
-             (*test.within_noise ? ": predicted within the noise of both.\n"
-                                 : ": not predicted; the difference is more than the noise of both.\n");
+    if (test.within_noise) out += "Hold-out " + hold_out_in_words(test) + ".\n";
   return out;
 }
 
@@ -160,6 +157,11 @@ std::string reservation_lines(const Card& card) {
 }
 
 }  // namespace
+
+std::string hold_out_in_words(const CardTest& test) {
+  return test.name + (*test.within_noise ? ": predicted within the noise of both"
+                                         : ": not predicted; the difference is more than the noise of both");
+}
 
 std::string verdict_of(const Card& card) {
   if (card.interpolated)

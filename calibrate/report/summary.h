@@ -28,9 +28,11 @@ std::vector<Measurement> laboratory_measurements(const CardTest& test);
 /// Remarks on the runs of a test (`laboratory/test.h`); may be empty.
 std::string remarks_on(const CardTest& test);
 
+/// Whether a held-out test was predicted. Requirement: it was judged.
+std::string hold_out_in_words(const CardTest& test);
+
 /// Reservations about a card whose readings may be within their tolerances, one clause each, the most serious first:
-/// sheared-off heaps and other remarks on the runs; readings within their tolerance only without their standard error;
-/// parameters at a bound, or outside the plausible range. May be empty.
+/// those of all `diagnoses_of`. May be empty.
 std::vector<std::string> reservations_on(const Card& card);
 
 }  // namespace pastefit

@@ -105,8 +105,7 @@ const SlumpTest& slump_of(const Test& test) {
 ordered_json grains_json(const Test& test, bool preset) {
   constexpr double many = 1600, too_few = 500;
   constexpr double largest_of_opening = 0.08;
-  const Mould& mould = slump_of(test).mould;
-  const double opening_mm = 1e3 * std::min(2 * narrower_radius_m(mould), mould.height_m);
+  const double opening_mm = 1e3 * *narrowest_opening_m(slump_of(test));
   const double preset_mm = 1e3 * specimen_of(test).grains.radius_m, count = grains_needed(test);
   const double of_many_mm = preset_mm * std::cbrt(count / many);
   const double radius_mm =

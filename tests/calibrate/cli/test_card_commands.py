@@ -245,6 +245,37 @@ class CardCommands(Desk):
         self.assertIn("What to try now: ", text)
         self.assertNotIn("does not meet the laboratory", text)
 
+    def test_doctor_says_of_each_property_whether_it_is_fine_and_which_page_explains_it(self):
+        result = run("doctor", SHIPPED, "--json")
+        self.assertEqual((result.returncode, result.stderr), (1, ""))
+        told = json.loads(result.stdout)
+        states = {one["name"]: one["state"] for one in told["diagnoses"]}
+        self.assertEqual((states["readings within tolerance"], states["heaps sheared off"], states["intervals"]), ("fine", "fine", "doubtful"))
+        self.assertEqual(told["doubtful"], list(states.values()).count("doubtful"))
+        manual = SOURCE / "calibrate/manual"
+        for one in told["diagnoses"]:
+            page, _, heading = one["page"].partition("#")
+            headings = [re.sub(r"[^a-z -]", "", line.strip("# \n").lower()).replace(" ", "-")
+                        for line in (manual / page).read_text().splitlines() if line.startswith("#")]
+            self.assertIn(heading, [*headings, ""], one["name"])
+        text = run("doctor", SHIPPED).stdout
+        self.assertIn("May be ignored if", text)
+        self.assertIn("readings within tolerance: fine", text)
+        sheared = run("doctor", self.sheared())
+        self.assertTrue(sheared.stdout.startswith("NOT CONFIRMED: 5 of 8 heaps sheared off"))
+
+    def test_doctor_exits_with_0_where_all_is_fine(self):
+        card = json.loads(SHIPPED.read_text())
+        del card["not_identified"]
+        file = self.folder / "card.json"
+        file.write_text(json.dumps(card))
+        result = run("doctor", file)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn("\n0 of ", result.stdout)
+        self.fails(run("doctor", self.folder / "nothing.json"), 2, "nothing.json")
+        self.out.mkdir()
+        self.fails(run("doctor", self.out), 2, "neither card.json nor evaluations.sqlite")
+
     def test_a_law_the_target_lacks_is_bad_input(self):
         card = json.loads(CARD.read_text())
         card["material"]["contact"].update(normal="jkr", surface_energy_j_m2=8)  # the usual adhesion of 1000 Pa times R
