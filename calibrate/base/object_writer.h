@@ -52,7 +52,9 @@ class BasicObjectWriter {
     at(key) = value;
   }
   void integers(const Key& key, const std::vector<std::uint64_t>& value, Need) { at(key) = value; }
-  void texts(const Key& key, const std::vector<std::string>& value, Need) { at(key) = value; }
+  void texts(const Key& key, const std::vector<std::string>& value, Need need) {
+    if (need == Need::required || !value.empty()) at(key) = value;
+  }
   void pairs(const Key& key, const std::vector<std::array<double, 2>>& value, const Range&, const Range&, Need,
              std::size_t) {
     if (!value.empty()) at(key) = value;

@@ -152,7 +152,7 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
                  {},
                  calibration.coarse_simulations};
   for (const auto& [reason, count] : counts.failures) card.search.failures[std::string(name_of(reason))] = count;
-  card.provenance = {study_file, study.hash, baselines.at(0).program};
+  card.provenance = {study_file, study.hash, baselines.at(0).program, study.settings};
   return card;
 }
 

@@ -112,7 +112,8 @@ struct SearchRecord {
 /// Source of the card, besides the laboratory files of its tests.
 struct CardProvenance {
   std::string study_file, study_hash;
-  std::string program;  ///< version and engine fingerprint
+  std::string program;                     ///< version and engine fingerprint
+  std::vector<std::string> settings = {};  ///< `Study::settings`
 };
 
 /// Inference of the fitted parameters from the measurements; all parts may be empty.

@@ -391,6 +391,8 @@ void describe_card(Fields& fields, Of& card) {
     provenance.text({"study_file", "as it was named"}, card.provenance.study_file, required);
     provenance.text({"study_hash", "of its content (FNV-1a)"}, card.provenance.study_hash, required);
     provenance.text({"program", "version and fingerprint of the engine"}, card.provenance.program, required);
+    provenance.texts({"settings", "changes of the study file for this calibration, PATH=VALUE; absent: none"},
+                     card.provenance.settings, Need::optional);
   });
   describe_inference(fields, card.inference);
   fields.list({"rebaselined", "changes of the baseline that were meant, oldest first"}, card.rebaselined,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -13,6 +12,7 @@
 #include "calibrate/study/impact_json.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/settings.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {
@@ -21,20 +21,15 @@ namespace {
 
 using nlohmann::json;
 
-struct Setting {
-  std::string path;
-  json value;
-};
-
 /// Settings of parameters are separate, because they are scale-free; of all files only a study is.
-struct Settings {
+struct SceneSettings {
   std::vector<std::pair<std::size_t, double>> parameters;  // index in `parameter_kinds`, value
   std::vector<Setting> others;
 };
 
 constexpr std::string_view kParameters = "parameters.";
 
-void read_parameter(const Setting& setting, Settings& settings, Faults& faults) {
+void read_parameter(const Setting& setting, SceneSettings& settings, Faults& faults) {
   const auto kinds = parameter_kinds();
   const auto name = setting.path.substr(kParameters.size());
   const auto kind = std::ranges::find(kinds, name, &ParameterKind::name);
@@ -54,20 +49,9 @@ void read_parameter(const Setting& setting, Settings& settings, Faults& faults) 
     settings.parameters.emplace_back(static_cast<std::size_t>(kind - kinds.begin()), value);
 }
 
-Settings read_settings(const std::vector<std::string>& texts, Faults& faults) {
-  Settings settings;
-  for (const auto& text : texts) {
-    const auto sign = text.find('=');
-    if (sign == std::string::npos || sign == 0) {
-      faults.push_back({"--set " + text, "is not path=value", "e.g. --set parameters.strength_pa=3000"});
-      continue;
-    }
-    if (one_line(text) != text) {
-      faults.push_back({"--set " + text, "holds a control character, or bytes that are no text", "plain UTF-8"});
-      continue;
-    }
-    Setting setting{text.substr(0, sign), json::parse(text.substr(sign + 1), nullptr, false)};
-    if (setting.value.is_discarded()) setting.value = text.substr(sign + 1);
+SceneSettings read_scene_settings(const std::vector<std::string>& texts, Faults& faults) {
+  SceneSettings settings;
+  for (Setting& setting : read_settings(texts, faults)) {
     // Parameters may be given by name alone.
     if (std::ranges::find(parameter_kinds(), setting.path, &ParameterKind::name) != parameter_kinds().end())
       setting.path.insert(0, kParameters);
@@ -81,7 +65,7 @@ Settings read_settings(const std::vector<std::string>& texts, Faults& faults) {
 
 /// A single word that is neither a parameter nor a section of a file is an error, mostly a misspelt parameter. It is
 /// reported and removed, so that all other faults are found, too.
-void take_out_slips(Settings& settings, const json& document, Faults& faults) {
+void take_out_slips(SceneSettings& settings, const json& document, Faults& faults) {
   std::set<std::string, std::less<>> known{"title",    "test",   "provenance",   "apparatus",
                                            "material", "grains", "measurements", "confirmed"};
   for (const auto& kind : parameter_kinds()) known.emplace(kind.name);
@@ -98,43 +82,9 @@ void take_out_slips(Settings& settings, const json& document, Faults& faults) {
   });
 }
 
-/// Place after one step of a path, "key" of an object or "key[1]" of a list in it; null if there is none.
-json* step_into(json& place, const std::string& step) {
-  if (!place.is_object() || step.empty()) return nullptr;
-  const auto bracket = step.find('[');
-  if (bracket == std::string::npos) return &place[step];
-  std::size_t index = 0;
-  const char *const first = step.data() + bracket + 1, *const last = step.data() + step.size();
-  const auto [end, error] = std::from_chars(first, last, index);
-  const auto list = place.find(step.substr(0, bracket));
-  const bool is_index = error == std::errc() && std::string_view(end, static_cast<std::size_t>(last - end)) == "]";
-  return is_index && list != place.end() && list->is_array() && index < list->size() ? &(*list)[index] : nullptr;
-}
-
-/// Sets the value at its path; the file's reader reports unknown keys.
-void apply(const Setting& setting, json& document, Faults& faults) {
-  json* place = &document;
-  std::string_view rest = setting.path;
-  while (true) {
-    const auto dot = rest.find('.');
-    // Names of readings contain a dot, "step1.height_mm": an existing whole key takes precedence.
-    const bool whole = dot == std::string_view::npos || (place->is_object() && place->contains(rest));
-    place = step_into(*place, std::string(whole ? rest : rest.substr(0, dot)));
-    if (!place) {
-      faults.push_back({"--set " + setting.path, "does not lead to a place in the file",
-                        "a path of keys, as in the file, e.g. tests[0].test.lift_velocity_m_s of a card"});
-      return;
-    }
-    if (whole) break;
-    if (place->is_null()) *place = json::object();
-    rest.remove_prefix(dot + 1);
-  }
-  *place = setting.value;
-}
-
 /// Reads the document with `from_json`, settings applied first.
 template <class FromJson>
-auto read_with(json document, const Settings& settings, const std::filesystem::path& file, Faults& faults,
+auto read_with(json document, const SceneSettings& settings, const std::filesystem::path& file, Faults& faults,
                FromJson from_json) {
   for (const auto& setting : settings.others) apply(setting, document, faults);
   auto result = from_json(document);
@@ -143,7 +93,7 @@ auto read_with(json document, const Settings& settings, const std::filesystem::p
   return result;
 }
 
-Test with_parameters(const Test& test, std::vector<double> values, const Settings& settings, Faults& faults) {
+Test with_parameters(const Test& test, std::vector<double> values, const SceneSettings& settings, Faults& faults) {
   const ContactModel& laws = specimen_of(test).contact;
   for (const auto& [index, value] : settings.parameters) {
     const auto name = parameter_kinds()[index].name;
@@ -193,7 +143,7 @@ std::string first_test_of(const json& study) {
   return "";
 }
 
-std::optional<FoundScene> study_scene(const json& document, const Settings& settings, const std::string& name,
+std::optional<FoundScene> study_scene(const json& document, const SceneSettings& settings, const std::string& name,
                                       const std::filesystem::path& file, Faults& faults) {
   const std::string wanted = name.empty() ? first_test_of(document) : name;
   StudyChanges changes;
@@ -218,7 +168,7 @@ std::optional<FoundScene> study_scene(const json& document, const Settings& sett
   return FoundScene{with_parameters(lab.test, values_at(study.value(), middle), settings, faults), notes_of(lab)};
 }
 
-std::optional<FoundScene> card_scene(const json& document, const Settings& settings, const std::string& name,
+std::optional<FoundScene> card_scene(const json& document, const SceneSettings& settings, const std::string& name,
                                      const std::filesystem::path& file, Faults& faults) {
   const auto card = read_with(document, settings, file, faults, card_from_json);
   if (!card.ok()) return std::nullopt;
@@ -229,7 +179,7 @@ std::optional<FoundScene> card_scene(const json& document, const Settings& setti
   return FoundScene{with_parameters(test, values_of(card.value().material), settings, faults), {}};
 }
 
-std::optional<FoundScene> test_scene(const json& document, const Settings& settings, const std::string& name,
+std::optional<FoundScene> test_scene(const json& document, const SceneSettings& settings, const std::string& name,
                                      const std::filesystem::path& file, Faults& faults) {
   const auto format = document.is_object() ? document.value("format", json()) : json();
   if (format == "pastefit-study-1") return study_scene(document, settings, name, file, faults);
@@ -260,7 +210,7 @@ std::optional<FoundScene> test_scene(const json& document, const Settings& setti
 Result<FoundScene> scene_from_json(const json& document, const std::filesystem::path& file,
                                    const std::vector<std::string>& texts, const std::string& name) {
   Faults faults;
-  auto settings = read_settings(texts, faults);
+  auto settings = read_scene_settings(texts, faults);
   if (document.is_object() && document.value("format", json()) == "pastefit-impact-1") {
     if (!settings.parameters.empty())
       faults.push_back({"--set parameters.*", "an impact has none", "set its keys, e.g. contact.friction=0.3"});
@@ -281,7 +231,7 @@ Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vect
   Faults unread;
   auto document = read_json(file, unread);
   Faults faults;
-  if (!document) (void)read_settings(texts, faults);
+  if (!document) (void)read_scene_settings(texts, faults);
   faults.insert(faults.end(), unread.begin(), unread.end());
   if (!document) return faults;
   auto found = scene_from_json(*document, file, texts, name);

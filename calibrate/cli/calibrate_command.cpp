@@ -19,10 +19,12 @@
 #include "calibrate/evaluate/record.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/report/findings.h"
+#include "calibrate/report/next_steps.h"
 #include "calibrate/report/page.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/store/output_folder.h"
 #include "calibrate/store/program.h"
+#include "calibrate/study/settings.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {
@@ -40,6 +42,22 @@ struct CalibrateArguments {
   int budget = 0;
   double wall_budget_s = 0, core_budget_s = 0;
   std::optional<std::uint64_t> seed;
+  std::vector<std::string> settings;
+
+  /// Words of the command that another run of it repeats; without the study, its folder and its seed.
+  std::vector<std::string> repeated() const {
+    std::vector<std::string> words;
+    for (const std::string& one : settings) words.insert(words.end(), {"--set", one});
+    if (threads > 0) words.insert(words.end(), {"--threads", std::to_string(threads)});
+    return words;
+  }
+
+  /// The command, to which options may be added.
+  std::string command() const {
+    std::string line = "pastefit calibrate " + shell_word_if_needed(study) + " --out " + shell_word_if_needed(out);
+    for (const std::string& word : repeated()) line += " " + shell_word_if_needed(word);
+    return seed ? line + " --seed " + std::to_string(*seed) : line;
+  }
 };
 
 /// Writes card, summary, curves and page of a calibration to its folder, and prints the result. Exit status: success
@@ -50,6 +68,8 @@ int deliver_material(const CalibrationResult& result, const Store& store, const 
   const auto summary = summary_of(card, result.inference ? describe(*result.inference) : "");
   const auto unwritten = write_card(folder, card, summary);
   print("%s", (options.json ? json_text(to_json(card)) : summary).c_str());
+  if (!options.json)  // not in the file: the commands are those of this folder
+    print("%s", next_step_lines(in_the_way(card), next_steps(card, options.command(), options.out)).c_str());
   refuse(unwritten, kFailed);
   std::vector<std::string> files{kCardFile, kSummary, kPage, kStore};
   refuse(write_looks(folder, findings_of(card, store, result.inference), stop,
@@ -61,7 +81,7 @@ int deliver_material(const CalibrationResult& result, const Store& store, const 
 
 /// Prints the reason for a missing card; the page shows the results so far.
 int say_why_not(const CalibrationResult& result, const Study& study, const Store& store, const OutputFolder& folder,
-                bool json) {
+                const CalibrateArguments& options) {
   auto failures = nlohmann::ordered_json::object();
   std::fprintf(stderr, "pastefit: no material to report: %s\n", result.search.reason.c_str());
   for (const auto& [reason, count] : result.counts.failures) {
@@ -70,7 +90,10 @@ int say_why_not(const CalibrationResult& result, const Study& study, const Store
     failures[name] = count;
   }
   std::fprintf(stderr, "The evaluations are kept in %s.\n", folder.file(kStore).c_str());
-  if (json)
+  const std::string status(name_of(result.search.status));
+  std::fprintf(stderr, "%s",
+               next_step_lines("", next_steps_without_card(status, options.command(), options.study)).c_str());
+  if (options.json)
     print("%s", json_text({{"status", name_of(result.search.status)},
                            {"reason", result.search.reason},
                            {"simulations", result.search.simulations},
@@ -82,7 +105,7 @@ int say_why_not(const CalibrationResult& result, const Study& study, const Store
 
 /// Reads the study and applies the options.
 Study study_to_calibrate(const CalibrateArguments& options) {
-  Study study = value_or_throw(read_study(options.study));
+  Study study = value_or_throw(read_study_with(options.study, options.settings));
   if (options.budget > 0) study.search.budget_simulations = options.budget;
   if (options.seed) study.search.seed = *options.seed;
   return study;
@@ -143,7 +166,7 @@ int run_calibrate(const CalibrateArguments& options) {
   line.end();
   const auto result = value_or_throw(std::move(calibrated), kFailed);
   return result.card ? deliver_material(result, store, folder, options, stop, looks)
-                     : say_why_not(result, study, store, folder, options.json);
+                     : say_why_not(result, study, store, folder, options);
 }
 
 }  // namespace
@@ -172,6 +195,11 @@ Command add_calibrate(CLI::App& verb) {
       ->check(positive_number());
   verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's")
       ->check(whole_number());
+  verb.add_option("--set", options->settings,
+                  "PATH=VALUE, changes the study file's content for this calibration, e.g. "
+                  "parameters.friction.upper=0.8 or search.seed=3; may be given again")
+      ->type_name("PATH=VALUE")
+      ->take_all();
   verb.add_flag("--dry-run", options->dry_run, "say what would be done and how long it takes, and end");
   return [options] {
     if (options->out.empty()) options->out = std::filesystem::path(options->study).replace_extension().string();

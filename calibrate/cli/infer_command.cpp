@@ -13,6 +13,7 @@
 #include "calibrate/report/summary.h"
 #include "calibrate/store/output_folder.h"
 #include "calibrate/store/program.h"
+#include "calibrate/study/settings.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {
@@ -47,8 +48,8 @@ Faults differences(const Card& card, const Study& study, const std::string& file
 int infer_again(const InferOptions& options) {
   const std::filesystem::path from = options.from;
   const std::string card_file = (from / kCardFile).string(), store_file = (from / kStore).string();
-  const Study study = value_or_throw(read_study(options.study));
   Card card = value_or_throw(read_card(card_file));
+  const Study study = value_or_throw(read_study_with(options.study, card.provenance.settings));
   refuse(differences(card, study, card_file));
   const Store store = value_or_throw(Store::read(store_file));
   for (const auto& remark : store.remarks()) note("pastefit: %s: %s\n", kStore.c_str(), remark.c_str());

@@ -59,6 +59,7 @@ std::string origin_lines(const Card& card) {
     if (!test.lab.source.empty()) out += "  its source               " + one_line(test.lab.source) + "\n";
   }
   out += "  study                    " + one_line(from.study_file + " (" + from.study_hash) + ")\n";
+  for (const std::string& one : from.settings) out += "    with " + one_line(one) + "\n";
   return out + "  program                  " + one_line(from.program) + "\n";
 }
 

@@ -112,8 +112,9 @@ struct Study {
   std::vector<StudyTest> tests;       ///< at least one fitted test; fitted tests first
   std::vector<Parameter> parameters;  ///< every known parameter, in the order of `parameters.h`
   SearchOptions search;
-  std::string content;  ///< of the study file, as JSON text
-  std::string hash;     ///< of `content`
+  std::string content;                     ///< of the study file, as JSON text
+  std::string hash;                        ///< of `content`
+  std::vector<std::string> settings = {};  ///< "path=value", by which the content differs from its file
 };
 
 /// Changes of the contents of a study and its laboratory files before they are read; each may be empty.

@@ -176,6 +176,43 @@ class CommandLine(Desk):
             self.assertEqual(store.execute("SELECT count(*) FROM evaluations").fetchone(), (stored,))
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
 
+    def test_a_setting_of_the_study_is_checked_as_its_file_is_recorded_on_the_card_and_resumed_as_a_changed_study(self):
+        study = self.study()
+        self.fails(run("calibrate", study, "--out", self.out, "--set", "search.buget_simulations=3"), 2,
+                   "study.json: search.buget_simulations", "did you mean")
+        self.fails(run("calibrate", study, "--out", self.out, "--set", "parameters.friction.upper=-2"), 2, "parameters.friction")
+        self.fails(run("calibrate", study, "--out", self.out, "--set", "friction"), 2, "is not path=value")
+        self.assertFalse(self.out.exists())
+        self.calibrates(study)
+        plain = json.loads((self.out / "card.json").read_text())
+        self.assertNotIn("settings", plain["provenance"])
+        settings = ["parameters.strength_pa.upper=9000", "title=Another bound"]
+        changed = [word for one in settings for word in ("--set", one)]
+        result = self.calibrates(study, "--resume", *changed)
+        self.assertIn("Changed since the last run: study.parameters.strength_pa", " ".join(result.stderr.split()))
+        card = json.loads((self.out / "card.json").read_text())
+        jsonschema.validate(card, schemas.schema(SOURCE / "data", "card"))
+        self.assertEqual(card["provenance"]["settings"], settings)
+        self.assertNotEqual(card["provenance"]["study_hash"], plain["provenance"]["study_hash"])
+        self.assertEqual(card["material"]["free"]["strength_pa"]["upper"], 9000)
+        self.assertIn("with parameters.strength_pa.upper=9000", run("show", self.out / "card.json").stdout)
+        self.assertNotIn("made from another study", run("infer", study, "--from", self.out).stderr)
+
+    def test_a_run_that_is_not_confirmed_ends_with_commands_that_run(self):
+        study = self.study()
+        study.write_text(study.read_text().replace('"tolerance_mm": 5', '"tolerance_mm": 0.001'))
+        result = self.calibrates(study, "--threads", TWO)
+        self.assertEqual(result.returncode, 1)
+        end = result.stdout[result.stdout.index("In the way: "):]
+        self.assertIn("step1.height_mm is off by", end)
+        commands = [line.strip() for line in end.splitlines() if line.startswith("    pastefit ")]
+        self.assertIn(len(commands), (2, 3))
+        self.assertNotIn("Ready to run", (self.out / "summary.txt").read_text())
+        path = f"{os.path.dirname(os.path.abspath(PROGRAM))}:{os.environ['PATH']}"
+        for command in commands:
+            ran = subprocess.run(command, shell=True, capture_output=True, text=True, env={**os.environ, "PATH": path}, timeout=300)
+            self.assertIn(ran.returncode, (0, 1), command + ran.stderr)
+
     def test_coarse_grains_first_are_stored_beside_the_fine_ones_and_resume_repeats_nothing(self):
         search = dict(screening=2, budget_simulations=4, packings=1, confirmation_packings=1, rejected_share=1, coarse_first=True)
         study = self.study(search=search)
