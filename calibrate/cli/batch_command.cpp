@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "calibrate/batch/batch.h"
 #include "calibrate/batch/batch_table.h"
 #include "calibrate/calibrate.h"
+#include "calibrate/cli/child_calibration.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"
@@ -37,7 +37,6 @@ struct BatchArguments {
   bool force = false;
 };
 
-constexpr int kMostDeaths = 3;      // of one calibration's process; as for a worker
 constexpr int kElementWorkers = 4;  // default number of cores of an array element
 const std::string kBatchTable = "batch.csv", kBatchPage = "batch.html";
 const std::string kArrayScript = "batch.sbatch", kTableScript = "batch-table.sbatch";
@@ -67,56 +66,18 @@ void write_table(const std::vector<BatchRow>& rows, const fs::path& out) {
   note("wrote %s\nwrote %s\n", (out / kBatchTable).c_str(), (out / kBatchPage).c_str());
 }
 
-/// Reason for a missing card from the end of the process; nothing if there is a card.
-std::optional<BatchFailure> failure_after(const BatchStudy& one, const ChildEnd& end) {
-  if (end.signal != 0)
-    return BatchFailure{"failed", format("its process was killed by signal %d, ", end.signal) +
-                                      format("%d times; the same command goes on with it", kMostDeaths)};
-  if (end.status != kDone && end.status != kFailed)
-    return BatchFailure{"failed", format("ended with status %d; to see why: ", end.status) + "pastefit calibrate " +
-                                      shell_word(one.file.string()) + " --resume --out " +
-                                      shell_word(one.folder.string())};
-  const auto answer = nlohmann::json::parse(end.output, nullptr, false);
-  if (answer.is_object() && answer.contains("format")) return std::nullopt;
-  if (!answer.is_object() || !answer.contains("reason"))
-    return BatchFailure{"failed", "it could not write its result to " + one.folder.string()};
-  return BatchFailure{answer.value("status", "failed"), answer.value("reason", "")};
-}
-
-/// Calibrates one study with `pastefit calibrate --resume` in a child process, so that a crash does not affect other
-/// studies.
-Faults calibrate_one(const BatchStudy& one, const BatchArguments& options, const std::atomic<bool>& stop) {
-  std::vector<std::string> words{"calibrate", one.file.string(), "--out", one.folder.string(), "--resume", "--json"};
-  if (options.workers > 0) words.insert(words.end(), {"--threads", std::to_string(options.workers)});
-  if (is_quiet()) words.push_back("--quiet");
-  std::error_code error;
-  fs::remove(one.folder / kFailureFile, error);
-  ChildEnd end;
-  try {
-    for (int deaths = 0; deaths < kMostDeaths; ++deaths) {
-      end = run_this_program(words, stop);
-      if (end.signal == 0 || stop) break;
-      note("pastefit: %s: the process was killed by signal %d\n", one.name.c_str(), end.signal);
-    }
-  } catch (const std::system_error& failed) {
-    return write_failure(one, {"failed", std::string("no process could be started: ") + failed.what()});
-  }
-  if (end.signal != 0 && stop) return {};  // can be continued
-  if (const auto failure = failure_after(one, end)) return write_failure(one, *failure);
-  fs::remove(one.folder / kFailureFile, error);  // written by a concurrent batch
-  return {};
-}
-
 /// Calibrates the unfinished studies one after the other.
 Faults calibrate_all(const std::vector<BatchStudy>& batch, const BatchArguments& options,
                      const std::atomic<bool>& stop) {
+  std::vector<std::string> words;
+  if (options.workers > 0) words = {"--threads", std::to_string(options.workers)};
   Faults all;
   for (std::size_t i = 0; i < batch.size() && !stop; ++i) {
     const BatchStudy& one = batch[i];
     const bool finished = is_finished(one);
     note("%zu of %zu: %s%s\n", i + 1, batch.size(), one.name.c_str(), finished ? ": finished before" : "");
     if (finished) continue;
-    append(all, calibrate_one(one, options, stop));  // continue with the next study
+    append(all, calibrate_in_child(one, words, stop));  // continue with the next study
     const BatchRow row = row_of(one);
     print("%s: %s%s%s\n", one.name.c_str(), row.verdict.c_str(), row.reasons.empty() ? "" : ": ", row.reasons.c_str());
     std::fflush(stdout);

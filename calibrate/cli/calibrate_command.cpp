@@ -9,6 +9,7 @@
 #include "calibrate/base/text.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/card/calibration_card.h"
+#include "calibrate/cli/child_calibration.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/process.h"
@@ -42,6 +43,7 @@ struct CalibrateArguments {
   int budget = 0;
   double wall_budget_s = 0, core_budget_s = 0;
   std::optional<std::uint64_t> seed;
+  int seeds = 1;
   std::vector<std::string> settings;
 
   /// Words of the command that another run of it repeats; without the study, its folder and its seed.
@@ -134,6 +136,18 @@ WorkAhead work_ahead(const Study& study) {
           search.examination_simulations * each + hold_out_simulations(study)};
 }
 
+/// Searches with following seeds, each a process of its own.
+int run_seeds(const Study& study, const CalibrateArguments& options) {
+  Seeds seeds{options.seeds, options.repeated(), options.resume, options.force, options.json};
+  const auto add = [&](const char* option, const std::string& value) {
+    seeds.options.insert(seeds.options.end(), {option, value});
+  };
+  if (options.budget > 0) add("--budget", std::to_string(options.budget));
+  if (options.wall_budget_s > 0) add("--wall-budget", exact(options.wall_budget_s));
+  if (options.core_budget_s > 0) add("--core-budget", exact(options.core_budget_s));
+  return calibrate_with_seeds(study, options.study, options.out, seeds, listen_for_stop());
+}
+
 int run_calibrate(const CalibrateArguments& options) {
   const Study study = study_to_calibrate(options);
   CalibrateOptions how{options.study, options.threads, options.wall_budget_s, options.core_budget_s, nullptr};
@@ -145,6 +159,7 @@ int run_calibrate(const CalibrateArguments& options) {
     return kDone;
   }
 
+  if (options.seeds > 1) return run_seeds(study, options);
   const std::atomic<bool>& stop = listen_for_stop();
   how.stop = &stop;
   const OutputFolder folder =
@@ -195,6 +210,11 @@ Command add_calibrate(CLI::App& verb) {
       ->check(positive_number());
   verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's")
       ->check(whole_number());
+  verb.add_option("--seeds", options->seeds,
+                  "searches with this and the following seeds, each in a folder seed-NUMBER of DIR; their cards are "
+                  "then compared")
+      ->type_name("N")
+      ->check(whole_number(2, 1000));
   verb.add_option("--set", options->settings,
                   "PATH=VALUE, changes the study file's content for this calibration, e.g. "
                   "parameters.friction.upper=0.8 or search.seed=3; may be given again")

@@ -213,6 +213,23 @@ class CommandLine(Desk):
             ran = subprocess.run(command, shell=True, capture_output=True, text=True, env={**os.environ, "PATH": path}, timeout=300)
             self.assertIn(ran.returncode, (0, 1), command + ran.stderr)
 
+    def test_several_seeds_are_searched_each_in_its_folder_and_their_cards_compared(self):
+        study = self.study()
+        result = run("calibrate", study, "--seeds", "2", "--seed", "5", "--out", self.out, "--json")
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        table = json.loads(result.stdout)
+        self.assertEqual([(one["file"], one["seed"]) for one in table["cards"]], [("seed-5", 5), ("seed-6", 6)])
+        self.assertIn("strength_pa", table["parameters"])
+        self.assertEqual(table["without_card"], [])
+        self.assertEqual(result.returncode == 0, all(one["confirmed"] for one in table["cards"]))
+        alone = json.loads(run("compare", *(self.out / f"seed-{seed}/card.json" for seed in (5, 6)), "--json").stdout)
+        self.assertEqual(alone["parameters"], table["parameters"])
+        self.fails(run("calibrate", study, "--seeds", "2", "--seed", "5", "--out", self.out), 2, "earlier result", "seed-5")
+        again = run("calibrate", study, "--seeds", "2", "--seed", "5", "--out", self.out, "--resume")
+        self.assertIn("seed-6: finished before", again.stderr)
+        self.assertIn("Parameters that differ", again.stdout)
+        self.assertIn("of 2 searches confirmed a material", again.stdout)
+
     def test_coarse_grains_first_are_stored_beside_the_fine_ones_and_resume_repeats_nothing(self):
         search = dict(screening=2, budget_simulations=4, packings=1, confirmation_packings=1, rejected_share=1, coarse_first=True)
         study = self.study(search=search)
