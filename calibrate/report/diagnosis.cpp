@@ -154,10 +154,19 @@ Diagnosis repeats(const Card& card) {
   judge_scatter(card, out, [](const CardReading& one) {
     return Sample{one.repeats, *one.measured, one.standard_deviation};
   });
+  if (out.numbers.empty()) out.unknown = "the measurement has no repeats, or no repeatability is published";
+  return out;
+}
+
+/// What the measured readings say together, e.g. of the shape of a heap.
+Diagnosis measured_together(const Card& card) {
+  Diagnosis out{.name = "measured readings together",
+                .may_be_ignored = "if they were read on one heap, and the simulated ones are within tolerance",
+                .page = "when-it-does-not-meet.md#readings-that-no-heap-can-have"};
   for (const CardTest& test : card.tests)
     for (const std::string& note : check_readings(test.test, laboratory_measurements(test)).notes)
       out.notes.push_back(heading_of(test) + note);
-  if (out.numbers.empty()) out.unknown = "the measurement has no repeats, or no repeatability is published";
+  out.numbers = "nothing unusual";
   return out;
 }
 
@@ -252,17 +261,10 @@ std::vector<std::string> found_in(const Diagnosis& one) {
 }  // namespace
 
 std::vector<Diagnosis> diagnoses_of(const Card& card, std::span<const StoredEvaluation> evaluations) {
-  return {heaps(card),
-          readings(card),
-          bounds(card),
-          plausible(card),
-          pressure(card),
-          packings(card),
-          validation(card),
-          repeats(card),
-          grains(card),
-          intervals(card),
-          time_step(card, evaluations)};
+  return {heaps(card),      readings(card),  bounds(card),
+          plausible(card),  pressure(card),  packings(card),
+          validation(card), repeats(card),   measured_together(card),
+          grains(card),     intervals(card), time_step(card, evaluations)};
 }
 
 std::vector<std::string> reservations_on(const Card& card) {
