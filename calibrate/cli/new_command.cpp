@@ -308,7 +308,8 @@ Command add_new(CLI::App& verb) {
       ->type_name("TABLE.csv");
   verb.add_option("--title", sheet.title, "one line for people")->type_name("TEXT");
   verb.add_option("--mould", sheet.mould,
-                  "a preset (abrams, haegermann, ...), or base/top/height: \"200/100/300\", \"8/4/12 in\"")
+                  "a preset (abrams, haegermann, ...), a standard (EN 12350-2), or base/top/height: \"200/100/300\", "
+                  "\"8/4/12 in\"")
       ->type_name("MOULD");
   verb.add_option("--drops", sheet.drops,
                   "of the preset's plate or table, e.g. 15 with hinged-plate; without it the preset's")

@@ -27,7 +27,7 @@ struct PredictOptions {
 };
 
 Test test_of_preset(const std::string& name, const Card& card) {
-  Test test = value_or_throw(find_preset(name, ".")).test;
+  Test test = value_or_throw(find_preset(preset_of_standard(name, "."), ".")).test;
   specimen_of(test).bulk_density_kg_m3 = card.material.bulk_density_kg_m3;
   return test;
 }

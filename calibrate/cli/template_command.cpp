@@ -4,6 +4,7 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/laboratory/test.h"
+#include "calibrate/study/apparatus.h"
 #include "calibrate/study/slump_sheet.h"
 #include "calibrate/study/target_laws.h"
 
@@ -26,7 +27,8 @@ std::string template_of_mould(const TemplateOptions& options) {
   return options.name == "study" ? *template_text("study") : lab;
 }
 
-int print_template(const TemplateOptions& options, const std::string& names) {
+int print_template(TemplateOptions options, const std::string& names) {
+  if (!options.mould.empty()) options.mould = preset_of_standard(options.mould, ".");
   auto text = template_text(options.name);
   if (!text) refuse({{"template " + printable(options.name), "there is no such starting file", "one of " + names}});
   if (!options.target.empty() || !options.law.empty()) {

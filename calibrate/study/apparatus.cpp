@@ -4,9 +4,11 @@
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <system_error>
 #include <utility>
 
+#include "calibrate/base/input_file.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/machine.h"
 #include "calibrate/base/template_lines.h"
@@ -64,7 +66,7 @@ void describe_customary(Fields& reading, CustomaryReading& one, const Range& ran
                  customary_deviation, Need::required);
 }
 
-constexpr std::array not_simulated{"readings", "caution"};  // keys of apparatus files
+constexpr std::array not_simulated{"readings", "caution", "standards"};  // keys of apparatus files
 
 /// Preset files by name; the first of each name.
 std::map<std::string, fs::path> preset_files(const fs::path& folder) {
@@ -118,6 +120,21 @@ void read_customary(ObjectReader& document, Apparatus& apparatus) {
   });
 }
 
+/// "EN12350-5" or "C143" for a standard's name with or without its nation and year; empty for other texts.
+std::string standard_in(const std::string& name) {
+  static const std::regex european(R"(\s*(?:[^\d\s]+\s+){0,2}EN\s*(\d{3,5}(?:-\d+)?)\s*(?:[:(].*|-\d{4}.*)?)",
+                                   std::regex::icase);
+  static const std::regex american(R"(\s*(?:ASTM\s*)?(C\s*\d{2,4})(?:/C\s*\d+M)?(?:-\d+\w*)?\s*)", std::regex::icase);
+  std::smatch found;
+  if (name.size() > 80) return {};
+  if (std::regex_match(name, found, european)) return "EN" + found[1].str();
+  if (!std::regex_match(name, found, american)) return {};
+  std::string number = found[1].str();
+  std::erase(number, ' ');
+  number[0] = 'C';
+  return number;
+}
+
 std::size_t readings_taken(const Test& test) {
   const auto own_kinds = reading_kinds(test);
   return static_cast<std::size_t>(std::ranges::count_if(own_kinds, [](const ReadingKind& kind) { return !kind.lack; }));
@@ -146,6 +163,19 @@ Result<Apparatus> find_preset(const std::string& name, const fs::path& folder) {
   }
   if (!found) return faults;
   return std::move(*found);
+}
+
+std::string preset_of_standard(const std::string& name, const fs::path& folder) {
+  const std::string wanted = standard_in(name);
+  const std::vector<std::string> presets = preset_names(folder);
+  if (!wanted.empty() && std::ranges::count(presets, trimmed(name)) == 0)
+    for (const std::string& preset : presets) {
+      const auto found = find_preset(preset, folder);
+      if (!found.ok()) continue;
+      for (const std::string& own : found.value().standards)
+        if (standard_in(own) == wanted) return preset;
+    }
+  return trimmed(name);
 }
 
 std::string note_on_preset(const Apparatus& preset) {
@@ -224,6 +254,9 @@ ObjectSchema::Json apparatus_schema() {
                         describe_customary(one, any, {-1e6, 1e6});
                       });
                 });
+  schema.texts(
+      {"standards", "whose apparatus it is, e.g. \"EN 12350-2\"; further names of the preset for `pastefit new`"}, {},
+      Need::optional);
   schema.text({"caution",
                "what everybody who uses it must know, one sentence without a full stop: said in every run "
                "that names it"},
@@ -314,6 +347,7 @@ Result<Apparatus> apparatus_from_json(const json& document) {
     read_apparatus(reader, apparatus.test, std::nullopt);
     read_material(reader, apparatus.test);
     read_grains(reader, apparatus.test, Need::required);
+    reader.texts("standards", apparatus.standards, Need::optional);
     reader.text("caution", apparatus.caution, Need::optional);
     apparatus.test = with_default_contact(apparatus.test);
     if (faults.size() == before)

@@ -23,6 +23,7 @@ struct Apparatus {
   Provenance provenance;
   Test test;                               ///< contact parameters have their default values
   std::vector<CustomaryReading> readings;  ///< may be empty
+  std::vector<std::string> standards;      ///< whose apparatus it is, e.g. "EN 12350-2"; may be empty
   std::string caution;                     ///< warning for every user: a sentence without a full stop
   std::filesystem::path file;              ///< empty if not read from a file
   /// The file without comments, white space and what does not affect simulations (readings, caution). Part of the hash
@@ -48,6 +49,10 @@ std::vector<std::string> preset_names(const std::filesystem::path& folder);
 
 /// Finds a preset by its name in a file in `folder`. Errors: no such preset, or a faulty one.
 Result<Apparatus> find_preset(const std::string& name, const std::filesystem::path& folder);
+
+/// Name of the preset whose apparatus is that of a standard, as people write it: "DIN EN 12350-5:2019", "ASTM
+/// C143/C143M", "C143". Other names are returned without blanks at their ends.
+std::string preset_of_standard(const std::string& name, const std::filesystem::path& folder);
 
 /// Search path of presets, in order: `../apparatus` relative to `folder`, the folder of the naming file; then
 /// `apparatus` in each data folder (`data_folders`).

@@ -242,7 +242,9 @@ SheetTable read_sheet_table(const std::filesystem::path& file, const Sheet& defa
     return {};
   }
   if (bytes.value().starts_with("PK")) {
-    faults.push_back({printable(file.string()), "is a workbook", "save its sheet as CSV, and give that file"});
+    faults.push_back({printable(file.string()), "is a workbook",
+                      "save its sheet as CSV, and give that file: in Excel Save As, \"CSV UTF-8\"; in LibreOffice Save "
+                      "As, \"Text CSV\""});
     return {};
   }
   Faults found;

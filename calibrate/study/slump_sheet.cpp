@@ -77,15 +77,16 @@ ordered_json own_apparatus(const std::vector<double>& mould) {
 }
 
 /// "apparatus" of a laboratory file.
-ordered_json apparatus_json(const std::string& mould) {
+ordered_json apparatus_json(const std::string& mould, const std::filesystem::path& folder) {
   if (const auto own = lengths_in(mould)) return own_apparatus(*own);
-  return {{"preset", trimmed(mould)}};
+  return {{"preset", preset_of_standard(mould, folder)}};
 }
 
 /// Adds the sheet's drops, and a table large enough for the heap; the preset's table size is an assumption.
-ordered_json apparatus_json(const Sheet& sheet, const SlumpTest& test, const ordered_json& measurements) {
+ordered_json apparatus_json(const Sheet& sheet, const std::filesystem::path& folder, const SlumpTest& test,
+                            const ordered_json& measurements) {
   constexpr double room = 1.3;
-  ordered_json out = apparatus_json(sheet.mould);
+  ordered_json out = apparatus_json(sheet.mould, folder);
   if (sheet.drops > 0) out["drop_plate"] = {{"drops", sheet.drops}};
   const auto spread = measurements.find("step1.spread_mm");
   if (test.drop || spread == measurements.end()) return out;
@@ -330,7 +331,7 @@ std::span<const ShortReading> short_readings() {
 Result<Test> apparatus_of(const std::string& mould, const std::filesystem::path& folder) {
   Faults faults;
   Test test = SlumpTest{};
-  const json document{{"apparatus", apparatus_json(mould)}};
+  const json document{{"apparatus", apparatus_json(mould, folder)}};
   {
     ObjectReader reader(document, "", faults);
     read_apparatus(reader, test, folder);
@@ -366,7 +367,7 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
       {"format", "pastefit-lab-1"},
       {"title", one_line(sheet.title)},
       {"provenance", {{"source", sheet.source.empty() ? std::string(kSourceToFillIn) : one_line(sheet.source)}}},
-      {"apparatus", apparatus_json(sheet, slump_of(*test), measurements)},
+      {"apparatus", apparatus_json(sheet, folder, slump_of(*test), measurements)},
       {"material", {{"bulk_density_kg_m3", density->front()}}},
       {"grains", grains},
       {"measurements", measurements}};

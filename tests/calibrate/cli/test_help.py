@@ -46,6 +46,22 @@ class Help(Desk):
             for line in run(*arguments).stdout.splitlines():
                 self.assertLessEqual(len(line), 80, f"{arguments}: {line}")
 
+    def test_a_bare_terminal_without_a_locale_gets_plain_lines(self):
+        bare = {"PATH": os.environ["PATH"], "TERM": "dumb"}
+        for arguments in ([], ["help", "new"], ["show", CARD], ["doctor", CARD], ["calibrat"], ["new", self.folder / "x", "--mould", "abrams"]):
+            ours, theirs = self.terminal()
+            with self.subTest(arguments=arguments), open(ours, "rb", buffering=0) as screen:
+                result = subprocess.run([PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                        stderr=theirs, env=bare, timeout=60)
+                os.write(theirs, b"end")
+                os.close(theirs)
+                shown = b""
+                while not shown.endswith(b"end"):
+                    shown += screen.read(65536)
+                self.assertIn(result.returncode, (0, 1, 2))
+                text = (result.stdout + shown).replace(b"\r\n", b"\n").decode("ascii")
+                self.assertRegex(text, r"\A[\x20-\x7e\n]+\Z")
+
     def test_messages_on_a_terminal_are_broken_between_words(self):
         ours, theirs = self.terminal()
         fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 40, 0, 0))

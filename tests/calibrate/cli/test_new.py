@@ -145,6 +145,22 @@ class New(Desk):
             with self.subTest(mould=mould):
                 self.fails(run("new", self.folder / "x", *cone, "--mould", mould), 2, *words)
 
+    def test_a_standard_is_known_as_the_preset_of_its_apparatus(self):
+        cone = ["--density", "2350", "--slump", "180", "--force"]
+        for mould, preset in (("ASTM C143", "abrams"), ("astm c143/C143M-20", "abrams"), ("C143", "abrams"), ("EN 12350-2", "abrams-en"),
+                              ("DIN EN 12350-2:2019-09", "abrams-en"), ("BS EN12350-2", "abrams-en"), ("DIN EN 12350-8", "abrams-en")):
+            with self.subTest(mould=mould):
+                lab, _, _ = self.files(*cone, "--mould", mould)
+                self.assertEqual(lab["apparatus"]["preset"], preset)
+        for mould, preset in (("DIN EN 12350-5", "hinged-plate"), ("EN 1015-3", "haegermann-table"), ("ASTM C1437", "astm-c1437")):
+            with self.subTest(mould=mould):
+                lab, _, _ = self.files("--density", "2100", "--spread", "210", "--force", "--mould", mould)
+                self.assertEqual(lab["apparatus"]["preset"], preset)
+        for mould in ("EN 12350-22", "ASTM C14", "EN 206"):
+            with self.subTest(mould=mould):
+                self.fails(run("new", self.folder / "x", *cone, "--mould", mould), 2, "there is no preset", "resets: ")
+        self.assertIn('"preset": "hinged-plate"', run("template", "lab", "--mould", "EN 12350-5").stdout)
+
     def test_a_time_to_a_width_that_the_heap_does_not_reach_is_refused(self):
         flow = ["--mould", "abrams", "--density", "2350", "--reading", "step1.t500_s=2.1"]
         self.fails(run("new", self.out, *flow, "--spread", "450"), 2, "step1.t500_s (2.1) contradicts step1.spread_mm (450)",
