@@ -23,6 +23,7 @@ Command add_export(CLI::App& verb);
 Command add_help(CLI::App& verb);
 Command add_infer(CLI::App& verb);
 Command add_new(CLI::App& verb);
+Command add_plan(CLI::App& verb);
 Command add_predict(CLI::App& verb);
 Command add_read(CLI::App& verb);
 Command add_report(CLI::App& verb);

@@ -76,6 +76,7 @@ int run(int argc, char** argv) {
                        *kTrust = "Check", *kMany = "Many studies";
   constexpr Verb kVerbs[] = {
       {kStart, "new", "write a laboratory file and a study from what a measuring sheet says", add_new},
+      {kStart, "plan", "say which test or reading would tell most, before anything is measured", add_plan},
       {kStart, "template", "print a commented starting file", add_template},
       {kStart, "help", "say what the program does, or one of its verbs", add_help},
       {kCalibrate, "calibrate", "find the material that meets the laboratory's readings of a study", add_calibrate},

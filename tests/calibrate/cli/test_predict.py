@@ -49,5 +49,30 @@ class Predict(Desk):
         self.assertIn("the mould is only", found["left_out"]["mini-cone"])
 
 
+class Plan(Desk):
+    EXPECTED = ["--mould", "DIN EN 12350-2", "--slump", "150", "--grains", "13"]
+
+    def test_before_anything_is_measured_the_readings_are_ranked_as_after_a_calibration(self):
+        plan = self.folder / "plan"
+        said = run("plan", plan, *self.EXPECTED, "--budget", "24", "--packings", "2", "--json", "--quiet")
+        self.assertEqual((said.returncode, said.stderr), (0, ""))
+        found = json.loads(said.stdout)
+        left = [one["width_left"] for one in found["readings"]]
+        self.assertEqual(left, sorted(left))
+        self.assertTrue({one["preset"] for one in found["readings"]} & {"abrams", "abrams-en"})
+        card = json.loads((plan / "out/card.json").read_text())
+        self.assertLessEqual({"strength_pa", "friction", "rolling_friction"}, set(card["material"]["free"]))
+        self.assertEqual(json.loads((plan / "lab.json").read_text().split("\n", 1)[1])["provenance"]["source"], "expected, not measured")
+        same = run("predict", plan / "out", "--packings", "2", "--json", "--quiet")
+        self.assertEqual(json.loads(same.stdout), found)
+        self.fails(run("plan", plan, *self.EXPECTED), 2, "lab.json", "--force")
+
+    def test_a_plan_wants_a_mould_and_what_is_expected(self):
+        self.fails(run("plan", self.folder / "x", "--mould", "abrams"), 2, "--slump", "what you expect")
+        self.fails(run("plan", self.folder / "x", "--mould", "abram", "--slump", "100"), 2, 'did you mean "abrams"')
+        self.assertNotEqual(run("plan", self.folder / "x", "--slump", "100").returncode, 0)
+        self.assertFalse((self.folder / "x").exists())
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[3:])
