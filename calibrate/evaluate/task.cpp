@@ -1,5 +1,6 @@
 #include "calibrate/evaluate/task.h"
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -41,6 +42,8 @@ class Packings {
   std::map<std::string, std::shared_ptr<Filled>> filled_;
 };
 
+constexpr double kSketchInterval = 0.002;  // simulated seconds between two looks
+
 }  // namespace
 
 std::string task_text(const Test& test, const RunOptions& options, const std::string& packing) {
@@ -62,10 +65,20 @@ std::string simulate_task(const std::string& text) {
     options.cutoff = {cutoff->at("reading").get<std::string>(), number_from_json(cutoff->at("lowest")),
                       number_from_json(cutoff->at("highest"))};
   options.packing = packings.of(task.at("packing").get<std::string>(), test);
+  Sketcher sketcher;
+  options.watch_interval_s = kSketchInterval;
+  options.watch = [&](const Snapshot& snapshot) {
+    sketcher.see(test, snapshot);
+    return true;
+  };
+  const auto start = std::chrono::steady_clock::now();
   const Outcome outcome = simulate(test, options);
-  return nlohmann::ordered_json{
-      {"readings", to_json(outcome.readings)}, {"run", to_json(outcome.run, 0)}, {"failure", to_json(outcome.failure)}}
-      .dump();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  nlohmann::ordered_json answer{{"readings", to_json(outcome.readings)},
+                                {"run", to_json(outcome.run, wall.count())},
+                                {"failure", to_json(outcome.failure)}};
+  if (const Sketch sketch = sketcher.sketch(outcome); !sketch.points.empty()) answer["sketch"] = to_json(sketch);
+  return answer.dump();
 }
 
 std::string failed_task(const std::string& message) {
@@ -75,17 +88,22 @@ std::string failed_task(const std::string& message) {
   return nlohmann::ordered_json{{"failure", to_json(std::optional(failure))}}.dump();
 }
 
-Outcome outcome_of_task(const std::string& answer) {
-  Outcome outcome;
-  if (answer.empty()) {
+TaskAnswer answer_of_task(const std::string& text) {
+  TaskAnswer answer;
+  Outcome& outcome = answer.outcome;
+  if (text.empty()) {
     outcome.failure.emplace().reason = FailureReason::stopped;
-    return outcome;
+    return answer;
   }
-  const auto given = nlohmann::ordered_json::parse(answer);
+  const auto given = nlohmann::ordered_json::parse(text);
   outcome.failure = failure_from_json(given.at("failure"));
   if (given.contains("readings")) outcome.readings = readings_from_json(given.at("readings"));
-  if (given.contains("run")) outcome.run = run_from_json(given.at("run"));
-  return outcome;
+  if (given.contains("run")) {
+    outcome.run = run_from_json(given.at("run"));
+    answer.wall_s = number_from_json(given.at("run").at("wall_s"));
+  }
+  if (given.contains("sketch")) answer.sketch = sketch_from_json(given.at("sketch"));
+  return answer;
 }
 
 }  // namespace pastefit

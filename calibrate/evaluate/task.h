@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "calibrate/laboratory/sketch.h"
 #include "calibrate/laboratory/test.h"
 #include "core/step/run.h"
 
@@ -20,7 +21,14 @@ std::string simulate_task(const std::string& task);
 /// Answer of a task that could not be run.
 std::string failed_task(const std::string& message);
 
-/// Outcome from an answer; empty text: stopped. Errors: throws for text that the functions above do not write.
-Outcome outcome_of_task(const std::string& answer);
+/// Content of an answer.
+struct TaskAnswer {
+  Outcome outcome;
+  Sketch sketch;      ///< no points: none
+  double wall_s = 0;  ///< wall time of the simulation
+};
+
+/// Reads an answer; empty text: stopped. Errors: throws for text that the functions above do not write.
+TaskAnswer answer_of_task(const std::string& answer);
 
 }  // namespace pastefit

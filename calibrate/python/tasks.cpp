@@ -64,7 +64,8 @@ Engine engine_of(py::function ask, std::string name) {
   Engine engine;
   engine.prepare = [names](const Test&, const RunOptions&) { return names->next(); };
   engine.run = [names, function](const Test& test, const RunOptions& options) {
-    return outcome_of_task(answer_to(*function, task_text(test, options, names->of(options.packing.get())), options));
+    const std::string task = task_text(test, options, names->of(options.packing.get()));
+    return answer_of_task(answer_to(*function, task, options)).outcome;
   };
   return engine;
 }
