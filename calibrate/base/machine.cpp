@@ -1,7 +1,9 @@
 #include "calibrate/base/machine.h"
 
 #include <dlfcn.h>
+#ifdef __GLIBC__
 #include <gnu/libc-version.h>
+#endif
 #include <malloc.h>
 #include <sched.h>
 #include <sys/utsname.h>
@@ -25,12 +27,18 @@ std::string machine_type() {
 #if PASTEFIT_X86
   if (__builtin_cpu_supports("fma")) out += " fma";
 #endif
+#ifdef __GLIBC__
   return out + " glibc " + gnu_get_libc_version();
+#else
+  return out + " another C library";
+#endif
 }
 
 int processors() {
+#ifdef __linux__
   cpu_set_t allowed;
   if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return std::max(1, CPU_COUNT(&allowed));
+#endif
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));  // too many for `cpu_set_t`
 }
 

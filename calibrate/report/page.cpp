@@ -12,15 +12,24 @@
 #include "calibrate/report/views.h"
 
 // The page as built by esbuild, between two symbols. Assembler embeds the file: a source of its bytes would be five
-// times as large and take a second to compile.
-asm(R"(
-  .section .rodata
-  .global pastefit_page_begin, pastefit_page_end
+// times as large and take a second to compile. Symbols of WebAssembly have a size.
+#ifdef __wasm__
+#define PASTEFIT_CONSTANTS ".section .rodata.page,\"\",@\n"
+#define PASTEFIT_BACK ".text\n"
+#else
+#define PASTEFIT_CONSTANTS ".section .rodata\n"
+#define PASTEFIT_BACK ".previous\n"
+#endif
+asm(PASTEFIT_CONSTANTS R"(
+  .globl pastefit_page_begin
 pastefit_page_begin:
   .incbin ")" PASTEFIT_PAGE_FILE R"("
+  .size pastefit_page_begin, .-pastefit_page_begin
+  .globl pastefit_page_end
 pastefit_page_end:
-  .previous
-)");
+  .byte 0
+  .size pastefit_page_end, 1
+)" PASTEFIT_BACK);
 extern "C" const char pastefit_page_begin[], pastefit_page_end[];
 
 namespace pastefit {
