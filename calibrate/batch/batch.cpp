@@ -119,7 +119,7 @@ std::string output_of_part(int part) {
 
 constexpr const char* kElement = R"sh(
 driver=
-requeue() { echo "$1: the element is queued again and goes on where it was"; scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"; }
+requeue() { echo "$1: the element is queued again and continues where it was"; scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"; }
 # Before the time limit, and where Slurm or a person ends the job, the calibration ends with all that it has simulated.
 trap 'time_is_up=yes; kill -TERM $driver' USR1
 trap 'kill -TERM $driver' TERM

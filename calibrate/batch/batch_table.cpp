@@ -259,7 +259,7 @@ std::string batch_page(const std::vector<BatchRow>& rows) {
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
          "<meta name=\"viewport\" content=\"width=device-width\"><title>pastefit: batch</title>\n<style>" +
          std::string(kStyle) + "</style></head>\n<body><h1>Batch</h1>\n<p>" + xml_text(count_of(rows)) +
-         " Those that did not meet the laboratory stand on top. Units are in the names of the columns.</p>\n"
+         " Materials that are not confirmed come first. Units are in the names of the columns.</p>\n"
          "<div class=\"wide\"><table><thead><tr>" +
          head + "</tr></thead>\n<tbody>\n" + body + "</tbody></table></div></body></html>\n";
 }

@@ -143,7 +143,7 @@ Result<Card> rescaled(Card card, double radius) {
   card.confirmation.packings.clear();
   card.confirmation.fresh = card.confirmation.meets_laboratory = card.confirmation.refuted = false;
   card.confirmation.error = 0;
-  card.search.reason = "The material was carried over from grains of another size and not confirmed there.";
+  card.search.reason = "The material was converted from grains of another size and is not confirmed for the new ones.";
   card.rebaselined.clear();
   card.further_confirmations.clear();
   return card;

@@ -365,7 +365,7 @@ void describe_interpolation(Fields& fields, Of& one) {
 /// All fields except the format.
 template <class Fields, class Of>
 void describe_card(Fields& fields, Of& card) {
-  fields.text({"title", "one line for people"}, card.title, required);
+  fields.text({"title", "title, one line"}, card.title, required);
   fields.object({"material", "its contact laws, in SI for grains of one size, and scale-free"}, required,
                 [&](auto& material) {
                   describe_material(material, card.material);

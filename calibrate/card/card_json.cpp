@@ -281,7 +281,7 @@ Result<Card> card_from_json(const json& document) {
 ordered_json card_schema() {
   ordered_json object, definitions;
   ObjectSchema schema(object, definitions);
-  schema.constant({"format", "says what file it is, and in which version"}, card_fields::format_of(kCardVersion),
+  schema.constant({"format", "kind of file and version of its format"}, card_fields::format_of(kCardVersion),
                   Need::required);
   Card any;
   any.material.parameters = card_fields::default_parameters();

@@ -73,7 +73,7 @@ std::string rejected_in_words(const Card& card) {
   const std::string heaps = rejected.test ? std::string(rejected_runs(rejected.test->test)) : "runs rejected";
   const std::string allowed = share ? ", " + share_in_words(*share) + " allowed" : "";
   return format("%zu of %zu ", rejected.runs, rejected.of) + heaps +
-         (rejected.runs == 0 ? ", but came near to it" : "") + allowed;
+         (rejected.runs == 0 ? ", but all came close to it" : "") + allowed;
 }
 
 }  // namespace
@@ -136,7 +136,7 @@ std::string what_to_try(const Card& card) {
   if (card.interpolated || confirmation.meets_laboratory) return "";
   if (!card.rescaled.empty() && !confirmation.fresh)
     return "calibrate with grains of this size, or measure the bias (pastefit rescale --packings)";
-  if (!confirmation.fresh) return "go on with --resume, with a larger search.budget_simulations";
+  if (!confirmation.fresh) return "continue with --resume and a larger search.budget_simulations";
   const Farthest farthest = farthest_of(card);
   const Verdict of_readings = verdict_on_readings(evidence_of(card.tests));
   if (of_readings == Verdict::undecided) return "more packings of the confirmation (search.confirmation_packings)";
@@ -150,8 +150,8 @@ std::string what_to_try(const Card& card) {
            " and its standard deviation, free another parameter, or allow more "
            "simulations (search.budget_simulations)";
   return wider +
-         "wider bounds of the frictions, or more simulations (search.budget_simulations); if such heaps are "
-         "right, a larger search.rejected_share";
+         "wider bounds of the frictions, or more simulations (search.budget_simulations); if the measured heaps shear "
+         "off too, a larger search.rejected_share";
 }
 
 bool only_heaps_refute(const Card& card) {
@@ -164,12 +164,12 @@ std::string cause_unconfirmed(const Card& card) {
   const Confirmation& confirmation = card.confirmation;
   if (card.interpolated)
     return "interpolated between " + std::to_string(card.interpolated->studies.size()) +
-           " materials; no reading of this mix was met";
+           " materials; the mix was not measured";
   if (confirmation.meets_laboratory) return "";
   if (!card.rescaled.empty() && !confirmation.fresh)
-    return format("carried over from grains of %.4g mm radius, and not calibrated with these",
+    return format("converted from grains of %.4g mm radius, and not calibrated with the new ones",
                   1e3 * card.rescaled.back().from_radius_m);
-  if (!confirmation.fresh) return "not simulated on packings that the search had not seen";
+  if (!confirmation.fresh) return "not simulated on fresh packings";
   const Farthest farthest = farthest_of(card);
   const Verdict of_readings = verdict_on_readings(evidence_of(card.tests));
   if (of_readings == Verdict::refuted) return off_in_words(farthest);

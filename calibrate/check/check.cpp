@@ -157,12 +157,12 @@ void judge(CardCheck& out, const CheckOptions& options) {
   const auto wrong = std::ranges::count_if(out.readings, [](const auto& reading) { return !reading.agrees(); });
   const bool bits_matter = out.same_program || options.bits;
   if (wrong > 0)
-    out.reason += format("%ld of %zu readings lie outside the band of the noise. ", static_cast<long>(wrong),
-                         out.readings.size());
+    out.reason +=
+        format("%ld of %zu readings lie outside their noise band. ", static_cast<long>(wrong), out.readings.size());
   if (out.bits == SameBits::other && out.same_program)
-    out.reason += "The same program on the same type of machine has to give the same bits, and did not. ";
+    out.reason += "The same program on the same type of machine must give the same bits; it did not. ";
   else if (out.bits == SameBits::other)
-    out.reason += "The card was made by another program or machine, and the bits have changed. ";
+    out.reason += "The bits differ, because another program or machine made the card. ";
   const bool agrees = wrong == 0 && !(bits_matter && out.bits == SameBits::other);
   out.verdict = agrees ? CheckVerdict::agrees : CheckVerdict::disagrees;
 }
@@ -224,8 +224,7 @@ CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine
     const auto promises = promises_of(test);
     if (packings_of(card, test).size() < 2 || promises.empty()) {
       out.reason = heading_of(test) +
-                   "The card keeps the readings of fewer than two packings, so that their noise is not known; give it "
-                   "a baseline with --rebaseline.";
+                   "The card has the readings of fewer than two packings, so their noise is unknown; use --rebaseline.";
       return out;
     }
     promised += promises.size();
@@ -258,7 +257,7 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
   out.false_alarm = options.false_alarm;
   Test test = with_material_of(card, lab.test);
   if (const auto faults = validate(test); !faults.empty()) {
-    out.reason = "The card's grains cannot be put into this laboratory's test: " + message_of(faults);
+    out.reason = "The card's grains do not fit the test of this laboratory file: " + message_of(faults);
     return out;
   }
   auto packings = asked(packings_of(card), options);

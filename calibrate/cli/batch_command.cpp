@@ -91,7 +91,7 @@ int run_on_this_machine(const std::vector<BatchStudy>& batch, const BatchArgumen
   std::vector<BatchRow> rows;
   for (const BatchStudy& one : batch) rows.push_back(row_of(one));
   if (!options.no_table) write_table(rows, options.out);
-  if (stop) std::fprintf(stderr, "pastefit: interrupted; the same command goes on\n");
+  if (stop) std::fprintf(stderr, "pastefit: interrupted; the same command continues\n");
   const auto confirmed = std::ranges::count(rows, "confirmed", &BatchRow::verdict);
   if (!options.no_table) print("%td of %zu studies are confirmed\n", confirmed, rows.size());
   refuse(faults, kFailed);
@@ -130,7 +130,7 @@ int write_jobs(const BatchArguments& options) {
   }
   refuse(write_atomically(table, table_job_script(job)), kFailed);
   note("wrote %s\n", table.c_str());
-  note("to run them, %d cores each, and then make the table:\n", job.workers);
+  note("to run them with %d cores each, and then make the table:\n", job.workers);
   print("sbatch --dependency=afterany%s %s\n", submitted.c_str(), shell_word(table.string()).c_str());
   return kDone;
 }
@@ -148,25 +148,22 @@ int run_batch(const BatchArguments& options) {
 Command add_batch(CLI::App& verb) {
   const auto options = std::make_shared<BatchArguments>();
   verb.add_option("STUDIES", options->studies, "study files")->required();
-  verb.add_option("--out", options->out,
-                  "folder for " + kBatchTable + ", " + kBatchPage + " and a folder of each study")
+  verb.add_option("--out", options->out, "folder for " + kBatchTable + ", " + kBatchPage + " and one folder per study")
       ->required()
       ->type_name("DIR");
-  verb.add_option(
-          "--workers", options->workers,
-          "simulations at the same time; default: one for each processor. With --slurm the cores of an element; "
-          "default: " +
-              std::to_string(kElementWorkers))
+  verb.add_option("--workers", options->workers,
+                  "simulations at the same time; default: one per processor. With --slurm: cores per element of the "
+                  "array; default: " +
+                      std::to_string(kElementWorkers))
       ->type_name("N")
       ->check(whole_number(1, 100'000));
-  auto* slurm =
-      verb.add_flag("--slurm", options->slurm, "simulate nothing, write an array job of Slurm: " + kArrayScript);
-  auto* table = verb.add_flag("--table", options->table, "simulate nothing, make the table of what is there");
+  auto* slurm = verb.add_flag("--slurm", options->slurm, "simulate nothing, write a Slurm array job: " + kArrayScript);
+  auto* table = verb.add_flag("--table", options->table, "simulate nothing, make the table of the present results");
   table->excludes(slurm);
-  verb.add_flag("--no-table", options->no_table, "make no table, as an element of an array")
+  verb.add_flag("--no-table", options->no_table, "make no table (for the elements of an array job)")
       ->excludes(table)
       ->excludes(slurm);
-  verb.add_flag("--force", options->force, "compute for more than a day a study");
+  verb.add_flag("--force", options->force, "start even if a study takes more than a day");
   return [options] { return run_batch(*options); };
 }
 

@@ -91,7 +91,7 @@ int say_why_not(const CalibrationResult& result, const Study& study, const Store
     std::fprintf(stderr, "  %d simulations failed: %s\n", count, name.c_str());
     failures[name] = count;
   }
-  std::fprintf(stderr, "The evaluations are kept in %s.\n", folder.file(kStore).c_str());
+  std::fprintf(stderr, "The simulations are stored in %s.\n", folder.file(kStore).c_str());
   const std::string status(name_of(result.search.status));
   std::fprintf(stderr, "%s",
                next_step_lines("", next_steps_without_card(status, options.command(), options.study)).c_str());
@@ -191,24 +191,25 @@ Command add_calibrate(CLI::App& verb) {
   verb.add_option("STUDY", options->study, "study file")->required();
   verb.add_option("--out", options->out,
                   "folder for card.json, summary.txt, " + kPage + " and " + kStore +
-                      "; without it one beside STUDY with its name, less .json")
+                      "; default: a folder beside STUDY with its name without .json")
       ->type_name("DIR");
-  auto* resume = verb.add_flag("--resume", options->resume, "go on with the evaluations that DIR holds");
-  verb.add_flag("--force", options->force, "replace the earlier result in DIR; compute for more than a day")
+  auto* resume = verb.add_flag("--resume", options->resume, "continue with the simulations stored in DIR");
+  verb.add_flag("--force", options->force, "replace the earlier result in DIR; start even if it takes more than a day")
       ->excludes(resume);
   verb.add_flag("--json", options->json, "print the card instead of the summary");
   add_threads(verb, options->threads);
-  verb.add_option("--budget", options->budget, "simulations in all, instead of the study's")
+  verb.add_option("--budget", options->budget, "simulations in total, instead of the study's")
       ->type_name("N")
       ->check(whole_number(1, 1'000'000));
-  verb.add_option("--wall-budget", options->wall_budget_s, "end after this time with the best so far; --resume goes on")
+  verb.add_option("--wall-budget", options->wall_budget_s,
+                  "end after this time with the best material so far; --resume continues")
       ->type_name("SECONDS")
       ->check(positive_number());
   verb.add_option("--core-budget", options->core_budget_s,
                   "the same for the processor time of all simulations together")
       ->type_name("SECONDS")
       ->check(positive_number());
-  verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's")
+  verb.add_option("--seed", options->seed, "seed of search and packings, instead of the study's")
       ->check(whole_number());
   verb.add_option("--seeds", options->seeds,
                   "searches with this and the following seeds, each in a folder seed-NUMBER of DIR; their cards are "
@@ -220,7 +221,7 @@ Command add_calibrate(CLI::App& verb) {
                   "parameters.friction.upper=0.8 or search.seed=3; may be given again")
       ->type_name("PATH=VALUE")
       ->take_all();
-  verb.add_flag("--dry-run", options->dry_run, "say what would be done and how long it takes, and end");
+  verb.add_flag("--dry-run", options->dry_run, "print the plan and the expected time, and end");
   return [options] {
     if (options->out.empty()) options->out = std::filesystem::path(options->study).replace_extension().string();
     return run_calibrate(*options);

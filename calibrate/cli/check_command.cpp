@@ -30,7 +30,7 @@ int rebaseline_all(const CheckCommand& options) {
   std::vector<Card> cards;
   Faults faults;
   if (options.why.empty())
-    faults.push_back({"--rebaseline", "records no reason", "add --why TEXT: what changed, and why that is right"});
+    faults.push_back({"--rebaseline", "has no reason", "add --why TEXT: what changed, and why the change is correct"});
   for (const auto& file : options.cards) {
     auto card = read_card(file);
     append(faults, card);
@@ -109,25 +109,26 @@ Command add_check(CLI::App& verb) {
   const auto options = std::make_shared<CheckCommand>();
   verb.add_option("CARD", options->cards, "card files")->required();
   verb.add_flag("--quick", options->check.quick, "two simulations of each test of a card");
-  verb.add_flag("--bits", options->check.bits, "other bits are a disagreement, whatever program made the card");
+  verb.add_flag("--bits", options->check.bits,
+                "different bits are a disagreement, even if another program made the card");
   verb.add_option("--false-alarm", options->check.false_alarm,
-                  "probability to call a card wrong although nothing changed")
+                  "probability that an unchanged card is reported as wrong")
       ->check(number_from(1e-9, 0.5))
       ->capture_default_str();
   add_threads(verb, options->check.threads);
   auto* against = verb.add_option("--against", options->against,
-                                  "judge the cards by this laboratory file instead of by their own baseline")
+                                  "compare the cards with this laboratory file instead of their own baseline")
                       ->type_name("LAB");
-  auto* json = verb.add_flag("--json", options->json, "print the answers as JSON");
-  auto* junit = verb.add_option("--junit", options->junit, "write the answers as JUnit XML; -: standard output")
+  auto* json = verb.add_flag("--json", options->json, "print the result as JSON");
+  auto* junit = verb.add_option("--junit", options->junit, "write the result as JUnit XML; -: standard output")
                     ->type_name("FILE");
   verb.add_flag("--force", options->force, "replace FILE")->needs(junit);
   auto* rebaseline = verb.add_flag("--rebaseline", options->rebaseline,
-                                   "take what the engine gives now as the cards' baseline, and record why")
+                                   "replace the baseline of the cards by new simulations, and record the reason")
                          ->excludes(against)
                          ->excludes(json)
                          ->excludes(junit);
-  verb.add_option("--why", options->why, "the reason for a new baseline")->needs(rebaseline)->type_name("TEXT");
+  verb.add_option("--why", options->why, "reason for the new baseline")->needs(rebaseline)->type_name("TEXT");
   verb.add_option("--packings", options->packings, "packings of the new baseline, if more than before")
       ->needs(rebaseline)
       ->check(whole_number(2, 1000));

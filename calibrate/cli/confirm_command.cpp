@@ -75,7 +75,7 @@ Asked asked_for(const Card& card, const ConfirmOptions& options) {
 Faults unusable_options(const ConfirmOptions& options) {
   Faults faults;
   if (options.engine != "lammps")
-    faults.push_back({"--engine", one_line(options.engine) + " is not an engine that can confirm a card", "lammps"});
+    faults.push_back({"--engine", one_line(options.engine) + " cannot confirm a card", "lammps"});
   std::string first;
   if (std::istringstream(options.launch) >> first; !first.empty() && !is_program(first))
     faults.push_back({"--launch", "there is no program " + one_line(first),
@@ -94,7 +94,7 @@ Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const
   for (int i = 0; i < options.packings; ++i) {
     const std::uint64_t packing = kFirstConfirmPacking + static_cast<std::uint64_t>(i);
     const Fault interrupted{"packing " + std::to_string(packing), "interrupted",
-                            "the same command with --runs goes on"};
+                            "the same command with --runs continues"};
     const auto scene = export_scene(asked.card, asked.test, packing, shown_run(&stop));
     if (stop) return interrupted;
     if (!scene.ok()) return scene.faults();
@@ -125,7 +125,7 @@ Card card_now(const ConfirmOptions& options, const Card& confirmed) {
     return to_json(card);
   };
   if (without_confirmations(now) != without_confirmations(confirmed))
-    refuse({{options.card, "became another card while this one was simulated", "confirm that card"}}, kFailed);
+    refuse({{options.card, "changed while it was simulated", "confirm that card"}}, kFailed);
   return now;
 }
 
@@ -157,7 +157,7 @@ int confirm(const ConfirmOptions& options) {
   try {
     deliver(options, card, further_confirmation(card, of_card, asked.test.test, runs));
   } catch (const Refusal&) {
-    std::fprintf(stderr, "pastefit: the runs are kept in %s; --runs goes on from there\n", folder.c_str());
+    std::fprintf(stderr, "pastefit: the runs are kept in %s; --runs continues from there\n", folder.c_str());
     throw;
   }
   std::error_code error;
@@ -170,24 +170,24 @@ int confirm(const ConfirmOptions& options) {
 Command add_confirm(CLI::App& verb) {
   const auto options = std::make_shared<ConfirmOptions>();
   verb.add_option("CARD", options->card, "card file")->required();
-  verb.add_option("--engine", options->engine, "the other engine: lammps")->type_name("NAME")->capture_default_str();
-  verb.add_option("--radius", options->radius_mm, "mean radius of the grains in mm; without it the card's")
+  verb.add_option("--engine", options->engine, "the other program: lammps")->type_name("NAME")->capture_default_str();
+  verb.add_option("--radius", options->radius_mm, "mean radius of the grains in mm; default: the card's")
       ->check(number_from(0.01, 1000))
       ->type_name("MM");
   verb.add_option("--launch", options->launch,
-                  "what starts it on several ranks, e.g. \"mpirun -n 16\"; without it one rank")
+                  "command that starts LAMMPS on several ranks, e.g. \"mpirun -n 16\"; default: one rank")
       ->type_name("COMMAND");
   verb.add_option("--packings", options->packings, "simulations in fresh packings")
       ->check(whole_number(2, 1000))
       ->capture_default_str();
-  verb.add_option("--program", options->program, "LAMMPS with the card's laws; without it one is built, once")
+  verb.add_option("--program", options->program, "LAMMPS with the card's laws; default: one is built once and kept")
       ->type_name("FILE");
-  verb.add_option("--runs", options->runs,
-                  "folder in which decks, logs and heaps stay, and from which a stopped command goes on; without it a "
-                  "temporary one")
+  verb.add_option(
+          "--runs", options->runs,
+          "folder for decks, logs and heaps, from which an interrupted command continues; default: a temporary one")
       ->type_name("DIR");
-  verb.add_option("--test", options->test, "the card's test to simulate; without it that of export")->type_name("NAME");
-  verb.add_option("--out", options->out, "file for the card; without it CARD itself is replaced; -: standard output")
+  verb.add_option("--test", options->test, "test of the card to simulate; default: as for export")->type_name("NAME");
+  verb.add_option("--out", options->out, "file for the card; default: CARD is replaced; -: standard output")
       ->type_name("FILE");
   verb.add_flag("--force", options->force, "replace FILE");
   verb.add_flag("--json", options->json, "print the card itself");

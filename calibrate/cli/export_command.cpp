@@ -58,11 +58,11 @@ Command add_export(CLI::App& verb) {
   verb.add_option("--to", options->target, targets)->required()->type_name("TARGET");
   verb.add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");
   verb.add_option("--test", options->test,
-                  "the card's test to write; without it the first that has a deck, or else the first")
+                  "test of the card to write; default: the first that has a deck, or else the first")
       ->type_name("NAME");
-  verb.add_option("--packing", options->packing, "seed of the random packing; without it the test's own")
+  verb.add_option("--packing", options->packing, "seed of the random packing; default: that of the test")
       ->check(whole_number());
-  verb.add_flag("--unconfirmed", options->unconfirmed, "export a card that is not confirmed, and say so in every file");
+  verb.add_flag("--unconfirmed", options->unconfirmed, "export an unconfirmed card, marked in every file");
   verb.add_flag("--force", options->force, "replace an earlier export in DIR");
   return [options] { return export_to_folder(*options); };
 }

@@ -133,9 +133,8 @@ std::string man_page_of(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
     out += ".TP\n.B " + roff(shape_of(*option)) + "\n" + roff(option->get_description()) + "\n";
   out +=
-      ".SH EXIT STATUS\n0: done, and what was asked holds; 1: it does not, or it could not be kept; 2: the input "
-      "cannot be "
-      "used,\nevery error is named and nothing was written; 70: a bug of the program.\n";
+      ".SH EXIT STATUS\n0: done, and the answer is positive; 1: the answer is negative, or the result could not be "
+      "written;\n2: unusable input, all errors are listed and nothing is written; 70: a bug in the program.\n";
   return out + ".SH SEE ALSO\n" +
          (is_program ? "The README in share/doc/pastefit.\n"
                      : ".BR pastefit (1), and the README in share/doc/pastefit.\n");
@@ -184,8 +183,8 @@ int print_help(const CLI::App& program, const std::string& name) {
 
 Command add_help(CLI::App& verb) {
   const auto name = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
-  verb.add_option("VERB", *name, "which verb");
-  verb.add_option("--write", *folder, "write man pages and completions of bash, zsh and fish to this folder, instead")
+  verb.add_option("VERB", *name, "verb to describe");
+  verb.add_option("--write", *folder, "write man pages and completions for bash, zsh and fish to this folder instead")
       ->type_name("DIR");
   return [name, folder, program = verb.get_parent()] {
     return folder->empty() ? print_help(*program, *name) : write_manual(*program, *folder);

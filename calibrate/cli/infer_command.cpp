@@ -34,7 +34,7 @@ Faults differences(const Card& card, const Study& study, const std::string& file
   const auto compare = [&](const std::string& name, const std::string& before, const std::string& now) {
     if (before != now)
       faults.push_back({file, "was made from another " + name + " (its hash is " + before + ", now " + now + ")",
-                        "give the study as it was, or go on with pastefit calibrate --resume"});
+                        "give the study as it was, or continue with pastefit calibrate --resume"});
   };
   compare("study", card.provenance.study_hash, study.hash);
   for (std::size_t i = 0; i < card.tests.size() && i < study.tests.size(); ++i) {
@@ -60,7 +60,7 @@ int infer_again(const InferOptions& options) {
              "the folder of a calibration of this study"}});
   if (card.search.status == "out_of_reach")
     refuse({{card_file,
-             "the laboratory was out of reach, and readings that no material meets say nothing of the parameters",
+             "a measured reading was out of reach; readings that no material reproduces do not determine parameters",
              "other bounds, and pastefit calibrate --resume"}});
   std::optional<OutputFolder> folder;
   const auto earlier = options.force ? EarlierResult::replace : EarlierResult::refuse;
@@ -89,12 +89,12 @@ int infer_again(const InferOptions& options) {
 Command add_infer(CLI::App& verb) {
   const auto options = std::make_shared<InferOptions>();
   verb.add_option("STUDY", options->study, "study file")->required();
-  verb.add_option("--from", options->from, "folder of its calibration; the simulations there may be another program's")
+  verb.add_option("--from", options->from,
+                  "folder of its calibration; another version of the program may have made its simulations")
       ->required()
       ->type_name("DIR");
   verb.add_option("--out", options->out,
-                  "folder for card.json and summary.txt, which may be the same; else they are "
-                  "only shown")
+                  "folder for card.json and summary.txt, possibly the same; default: the summary is only printed")
       ->type_name("DIR");
   verb.add_flag("--force", options->force, "replace the card and the summary in --out");
   verb.add_flag("--json", options->json, "print the card instead of the summary");

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const fs::path kLammpsHeaders = "/usr/include/lammps";
-const std::string kOrProgram = ", or give a LAMMPS with the styles with --program";
+const std::string kOrProgram = ", or give a LAMMPS that has the styles with --program";
 
 bool can_be_run(const fs::path& file) {
   std::error_code error;
@@ -63,7 +63,7 @@ Faults missing_for_build() {
                       "install Debian's liblammps-dev" + kOrProgram});
   if (cache_folder().empty())
     faults.push_back({"--engine lammps",
-                      "neither XDG_CACHE_HOME nor HOME says where to keep LAMMPS with the card's laws",
+                      "neither XDG_CACHE_HOME nor HOME is set, so there is no folder for LAMMPS with the card's laws",
                       "set one of them" + kOrProgram});
   return faults;
 }
@@ -162,7 +162,7 @@ Result<fs::path> lammps_program(const std::string& given, const std::atomic<bool
   if (!given.empty()) {
     const fs::path program = program_file(given);
     if (program.empty())
-      return Fault{"--program", one_line(given) + " is not a program that can be run",
+      return Fault{"--program", one_line(given) + " is not an executable program",
                    "check the path and its permissions"};
     return program;
   }

@@ -32,7 +32,7 @@ std::string kernels_note() {
   const std::string_view set = kernels_of_this_processor().instruction_set;
   const bool plain = set == "SSE2";
   return "contact kernels: " + std::string(set) +
-         (plain ? " (slower than AVX2 and AVX-512, and with other last bits)" : "");
+         (plain ? " (slower than AVX2 and AVX-512; the last bits of results differ)" : "");
 }
 
 /// Options that the verb does not have; CLI11 would first report missing required ones.
@@ -60,7 +60,7 @@ struct WrappedHelp : CLI::Formatter {
 
 int run(int argc, char** argv) {
   refuse(obey_kernels_variable());
-  CLI::App program("Calibrates DEM contact models for pasty material from laboratory tests.", "pastefit");
+  CLI::App program("Calibrates DEM contact models of pastes and wet granules from laboratory tests.", "pastefit");
   program.formatter(std::make_shared<WrappedHelp>());
   program.set_version_flag("--version", "pastefit " + program_version() + "\n" + kernels_note());
   program.require_subcommand(1);
@@ -75,28 +75,27 @@ int run(int argc, char** argv) {
   constexpr const char *kStart = "Start", *kCalibrate = "Calibrate", *kLook = "Look", *kUse = "Use elsewhere",
                        *kTrust = "Check", *kMany = "Many studies";
   constexpr Verb kVerbs[] = {
-      {kStart, "new", "write a laboratory file and a study from what a measuring sheet says", add_new},
+      {kStart, "new", "write a laboratory file and a study from the values of a measuring sheet", add_new},
       {kStart, "plan", "say which test or reading would tell most, before anything is measured", add_plan},
       {kStart, "template", "print a commented starting file", add_template},
-      {kStart, "help", "say what the program does, or one of its verbs", add_help},
-      {kCalibrate, "calibrate", "find the material that meets the laboratory's readings of a study", add_calibrate},
+      {kStart, "help", "describe the program, or one of its verbs", add_help},
+      {kCalibrate, "calibrate", "find the material that reproduces the measured readings of a study", add_calibrate},
       {kCalibrate, "simulate", "run the test of a study, card, laboratory, apparatus or impact file once",
        add_simulate},
-      {kCalibrate, "infer", "say what a calibration's stored simulations tell of the parameters, without simulating",
+      {kCalibrate, "infer", "calculate the intervals of the parameters from the stored simulations of a calibration",
        add_infer},
-      {kLook, "show", "print a material card for a person", add_show},
-      {kLook, "compare", "lay material cards beside each other: parameters, intervals, readings", add_compare},
-      {kLook, "report", "write the page of a calibration, for a browser", add_report},
-      {kLook, "predict", "say what the materials that fit a calibration leave in another test", add_predict},
-      {kUse, "export", "write a material card's test for another DEM program", add_export},
+      {kLook, "show", "print a material card as text", add_show},
+      {kLook, "compare", "show material cards side by side: parameters, intervals, readings", add_compare},
+      {kLook, "report", "write the page of a calibration again, for a browser", add_report},
+      {kLook, "predict", "predict another test with the materials that fit a calibration", add_predict},
+      {kUse, "export", "write the test of a material card for another DEM program", add_export},
       {kUse, "read", "compare the heap of an exported deck with the card", add_read},
-      {kUse, "confirm", "simulate a material card's test in LAMMPS, and write what that gives onto the card",
-       add_confirm},
-      {kUse, "rescale", "carry a material card to another grain size", add_rescale},
+      {kUse, "confirm", "simulate the test of a material card in LAMMPS and add the result to the card", add_confirm},
+      {kUse, "rescale", "convert a material card to another grain size and measure the bias", add_rescale},
       {kTrust, "doctor", "say of each property of a calibration whether it is fine, or what is doubtful", add_doctor},
       {kTrust, "check", "simulate cards again and compare within the noise", add_check},
-      {kTrust, "verify", "hold the contact laws against closed forms, case by case", add_verify},
-      {kMany, "batch", "calibrate many studies, one after the other or as an array job, and make one table",
+      {kTrust, "verify", "compare the contact laws with closed forms, case by case", add_verify},
+      {kMany, "batch", "calibrate many studies, one after the other or as an array job, and make one table of them",
        add_batch}};
   std::set<std::string, std::less<>> names;
   for (const auto& verb : kVerbs) names.emplace(verb.name);
@@ -107,7 +106,7 @@ int run(int argc, char** argv) {
   Command chosen;
   for (const auto& verb : kVerbs) {
     auto* app = program.add_subcommand(verb.name, verb.meaning)->group(verb.group);
-    app->add_flag_callback("--quiet", be_quiet, "no progress and no notes, only the answer and errors");
+    app->add_flag_callback("--quiet", be_quiet, "no progress and no notes, only the result and errors");
     app->callback([&chosen, command = verb.add(*app)] { chosen = command; });
   }
 
@@ -140,7 +139,7 @@ int main(int argc, char** argv) {
     }
     status = pastefit::after_output(status);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "pastefit: this is a bug of the program, please report it: %s\n", error.what());
+    std::fprintf(stderr, "pastefit: this is a bug in the program, please report it: %s\n", error.what());
   }
   // Skips the destructors of libraries: OpenBLAS waits forever for its thread if memory was low when it was loaded.
   std::fflush(nullptr);

@@ -119,7 +119,8 @@ Faults missing_options(const Sheet& sheet) {
   if (sheet.density.empty())
     faults.push_back({"--density", "is missing", "e.g. 2350, or with its unit: \"145 lb/ft3\""});
   if (sheet.readings.empty() && sheet.yield_stress.empty())
-    faults.push_back({"--slump", "is missing, and every other reading", "e.g. --slump \"180, 175, 190\" --spread 330"});
+    faults.push_back(
+        {"--slump", "is missing, and so is every other reading", "e.g. --slump \"180, 175, 190\" --spread 330"});
   return faults;
 }
 
@@ -136,7 +137,7 @@ void part(const std::string& option, const std::vector<std::string>& texts, Shee
     const auto sign = text.find('=');
     const std::string name = text.substr(0, std::min(sign, text.size()));
     if (sign == std::string::npos || sign == 0)
-      faults.push_back({option + " " + printable(text), "is not NAME=VALUE", "as pastefit new --help has it"});
+      faults.push_back({option + " " + printable(text), "is not NAME=VALUE", "see pastefit new --help"});
     else if (option != "--reading" && std::ranges::count(into, name, &std::pair<std::string, std::string>::first) > 0)
       faults.push_back({option + " " + printable(name), "is given twice", "once"});
     else
@@ -258,9 +259,9 @@ int new_from_table(const NewOptions& options) {
     if (!words.empty()) note("%s: %s\n", what, one_line(listed(words)).c_str());
   };
   said("columns of the mix", mix);
-  said("columns that are not used", unused);
+  said("columns ignored", unused);
   said("lines without a reading", numbers_of(without));
-  said("lines that are no sample", numbers_of(statistics));
+  said("lines ignored because they are statistics", numbers_of(statistics));
   refuse(of_table);
   if (starts.size() == 1) return write_one(options, starts[0]);
   write_files(starts, options.force);
@@ -276,7 +277,8 @@ int new_from_table(const NewOptions& options) {
 int make_new(NewOptions options) {
   read_options(options);
   if (options.test != "slump" && !options.table.empty())
-    refuse({{"--from", "is of slump tests, and --test " + in_quotes(options.test) + " is another", "leave one out"}});
+    refuse({{"--from", "is for slump tests only, but --test " + in_quotes(options.test) + " is not one",
+             "leave one of them out"}});
   if (options.test != "slump") return write_one(options, {options.folder, templates_of_kind(options.test)});
   Sheet& sheet = options.sheet;
   if (!options.table.empty()) {
@@ -299,23 +301,22 @@ Command add_new(CLI::App& verb) {
   Sheet& sheet = options->sheet;
   sheet.target.clear();
   verb.add_option("DIR", options->folder, "folder for lab.json and study.json (.)");
-  verb.add_option("--test", options->test, "slump, or drop, pellet, shear, whose commented starting files are written")
+  verb.add_option("--test", options->test, "slump; drop, pellet and shear write commented starting files")
       ->type_name("KIND");
-  verb.add_option(
-          "--from", options->table,
-          "table of samples, saved as CSV: a row each, and a head such as \"sample;density (kg/m3);slump (mm)\"; "
-          "the options are for what it does not say")
+  verb.add_option("--from", options->table,
+                  "table of samples, saved as CSV: one row per sample below a header row such as \"sample;density "
+                  "(kg/m3);slump (mm)\"; options supply what has no column")
       ->type_name("TABLE.csv");
-  verb.add_option("--title", sheet.title, "one line for people")->type_name("TEXT");
+  verb.add_option("--title", sheet.title, "title of both files, one line")->type_name("TEXT");
   verb.add_option("--mould", sheet.mould,
                   "a preset (abrams, haegermann, ...), a standard (EN 12350-2), or base/top/height: \"200/100/300\", "
                   "\"8/4/12 in\"")
       ->type_name("MOULD");
   verb.add_option("--drops", sheet.drops,
-                  "of the preset's plate or table, e.g. 15 with hinged-plate; without it the preset's")
+                  "drops of the preset's plate or table, e.g. 15 with hinged-plate; default: the preset's")
       ->check(whole_number(1, 1000))
       ->type_name("N");
-  verb.add_option("--density", sheet.density, "of the fresh material, in kg/m3 or with its unit: \"145 lb/ft3\"")
+  verb.add_option("--density", sheet.density, "fresh density, in kg/m3 or with its unit: \"145 lb/ft3\"")
       ->type_name("DENSITY");
   options->by_name.reserve(short_readings().size());
   for (const ShortReading& one : short_readings()) {
@@ -325,35 +326,34 @@ Command add_new(CLI::App& verb) {
                         " or with their unit")
         ->type_name("VALUES");
   }
-  verb.add_option("--reading", options->readings, "any other reading of a laboratory file; may be given again")
+  verb.add_option("--reading", options->readings, "any other reading of a laboratory file; repeatable")
       ->type_name("NAME=VALUES")
       ->take_all();
   verb.add_option("--sd", options->deviations,
-                  "standard deviation of a reading between tests, in its unit: slump=10; without it as published")
+                  "standard deviation of a reading between tests, in its unit: slump=10; default: the published one")
       ->type_name("NAME=VALUE")
       ->take_all();
   verb.add_option(
           "--grains", sheet.grains,
-          "radius of the grains to simulate, in mm or with its unit: \"8\", or from \"6, 10\"; without it by the "
-          "mould")
+          "radius of the simulated grains, in mm or with its unit: \"8\", or a range \"6, 10\"; default: by mould")
       ->type_name("RADII");
   verb.add_option("--yield-stress", sheet.yield_stress,
-                  "of a vane or another rheometer, in Pa or with its unit; compared, and without any reading what it "
-                  "predicts of the test is fitted")
+                  "yield stress from a vane or another rheometer, in Pa or with its unit; it is compared; without any "
+                  "reading, the reading that a formula predicts from it is fitted")
       ->type_name("VALUES");
   verb.add_option("--for", sheet.target, "program that the material is for: " + names_of_targets())
       ->type_name("PROGRAM");
-  verb.add_option("--law", sheet.law,
-                  "law of attraction, in place of the one that the program starts from: " + names_of_laws())
+  verb.add_option("--law", sheet.law, "law of attraction, instead of the default of the program: " + names_of_laws())
       ->type_name("LAW");
-  verb.add_option("--fix", options->fixed, "value of a parameter that is known, and not searched: friction=0.2")
+  verb.add_option("--fix", options->fixed, "fixes a known parameter: friction=0.2")
       ->type_name("NAME=VALUE")
       ->take_all();
   verb.add_option("--prior", options->priors,
-                  "what is known of a parameter before the test, with its standard deviation: friction=0.2+-0.05")
+                  "prior of a parameter, its value and standard deviation: friction=0.2+-0.05")
       ->type_name("NAME=VALUE+-SD")
       ->take_all();
-  verb.add_option("--confirm", sheet.confirmed, "place that looks like a slip and is right, as the error names it")
+  verb.add_option("--confirm", sheet.confirmed,
+                  "key whose value looks like a mistake but is correct, as the error names it")
       ->type_name("PLACE")
       ->take_all();
   verb.add_flag("--force", options->force, "replace the files in DIR");

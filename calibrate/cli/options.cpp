@@ -63,7 +63,7 @@ Faults long_run_faults(const std::string& where, const std::string& work, double
   const double wall_s = processor_s / (threads > 0 ? std::min(threads, here) : here);
   const std::string time = range_of_time(wall_s, wall_s);
   if (wall_s > kDay_s && !force)
-    return {{where, work + " take at least " + time, remedy + ", or --force to compute for that long"}};
+    return {{where, work + " take at least " + time, remedy + ", or --force to start anyway"}};
   if (wall_s > kHour_s) note("pastefit: %s take at least %s\n", work.c_str(), time.c_str());
   return {};
 }

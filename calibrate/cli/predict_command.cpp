@@ -42,10 +42,10 @@ std::string prediction_table(const Prediction& found, std::size_t materials) {
                   (plain(one.lower, 3) + " to " + plain(one.upper, 3)).c_str(),
                   (plain(least, 3) + " to " + plain(most, 3)).c_str(), measured.c_str(), one.is_within() ? "" : " x");
   }
-  if (!std::ranges::all_of(found.readings, &ReadingPrediction::is_within)) out += "x: measured outside of the band.\n";
+  if (!std::ranges::all_of(found.readings, &ReadingPrediction::is_within))
+    out += "x: the measured value lies outside the band.\n";
   out += format("%zu materials that fit the readings of the calibration, %d heaps", materials, found.heaps);
-  if (found.rejected > 0)
-    out += format("; %d of them, such as a laboratory would repeat, are left out", found.rejected);
+  if (found.rejected > 0) out += format("; %d of them sheared off and are left out", found.rejected);
   if (found.spilled > 0) out += format("; %d slid off the table and are left out", found.spilled);
   return wrapped(out + ".\n");
 }
@@ -89,7 +89,7 @@ std::string next_table(const NextTests& next) {
                   (plain(least, 3) + " to " + plain(most, 3)).c_str(), 100 * one.width_left());
     any = true;
   }
-  if (!any) out = "No test of a preset tells the materials apart that fit: what is open of them does not show there.\n";
+  if (!any) out = "No preset distinguishes between the materials that fit: their readings hardly differ.\n";
   for (const auto& [preset, why] : next.left_out) out += "Not predicted: " + preset + ", " + why + ".\n";
   return out;
 }
@@ -119,9 +119,9 @@ Family fitting_materials(const std::string& folder) {
   const Findings findings = value_or_throw(read_findings(folder, kStore));
   if (!findings.card || !findings.inference)
     refuse({{folder,
-             "does not say which materials fit: " +
+             "does not contain materials that fit: " +
                  (findings.missing.empty() ? std::string("there is no inference") : one_line(findings.missing.front())),
-             "the folder of a calibration that ended with a material"}});
+             "give the folder of a calibration that found a material"}});
   Family family{*findings.card, {}};
   for (const EquivalentMaterial& one : findings.inference->family)
     family.materials.push_back(
@@ -205,18 +205,17 @@ Command add_predict(CLI::App& verb) {
   const auto options = std::make_shared<PredictOptions>();
   verb.add_option("DIR", options->folder, "folder of a calibration")->required();
   auto* lab =
-      verb.add_option("--lab", options->lab, "laboratory file of the test to predict; what it measured is compared")
+      verb.add_option("--lab", options->lab, "laboratory file of the test to predict; its readings are compared")
           ->type_name("LAB");
   verb.add_option("--preset", options->preset,
-                  "preset of the test to predict, e.g. hinged-plate; without it and --lab all of them, to see what to "
-                  "measure next")
+                  "preset of the test to predict, e.g. hinged-plate; without it and --lab: all presets")
       ->type_name("PRESET")
       ->excludes(lab);
-  verb.add_option("--packings", options->packings, "heaps of each material")
+  verb.add_option("--packings", options->packings, "heaps per material")
       ->check(whole_number(2, 1000))
       ->capture_default_str();
   add_threads(verb, options->threads);
-  verb.add_flag("--force", options->force, "compute for more than a day");
+  verb.add_flag("--force", options->force, "start even if it takes more than a day");
   verb.add_flag("--json", options->json, "print the prediction as JSON");
   return [options] { return predict_other(*options); };
 }

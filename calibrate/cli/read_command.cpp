@@ -76,7 +76,7 @@ std::string reading_table(const std::vector<HeapReading>& readings, const std::s
   }
   if (!packings.empty()) out += "Card: " + packings + ".\n";
   if (std::ranges::any_of(readings, &HeapReading::is_compared))
-    out += "Noise: in 95 of 100 packings of the card's material a heap differs by less.\n";
+    out += "Noise: 95 of 100 packings of the card's material differ by less.\n";
   return out;
 }
 
@@ -137,7 +137,8 @@ int read_heap_of(const ReadOptions& options) {
   } else {
     print("%s", reading_table(readings, packings_in_words(card.value(), test)).c_str());
     if (rejected) print("%s.\n", remarks_on(test.test, {&read, 1}).c_str());
-    print(rejected    ? "It is not the card's heap: readings are of heaps that a laboratory accepts.\n"
+    print(rejected
+              ? "The heap sheared off, so it is not compared: the card's readings are means of heaps that did not.\n"
           : differs   ? "The heap differs from the card's by more than the noise.\n"
           : !compared ? "Not compared: the card has no readings of three packings or more.\n"
                       : "The heap agrees with the card.\n");
@@ -153,12 +154,10 @@ Command add_read(CLI::App& verb) {
       ->required()
       ->expected(1, 2);
   verb.add_option("--card", options->card, "card from which the deck was exported")->required()->type_name("CARD");
-  verb.add_option("--filled", options->filled,
-                  "dump of the grains as they were filled in; without it filled.dump beside the heap")
+  verb.add_option("--filled", options->filled, "dump of the filled vessel; default: filled.dump beside the heap")
       ->type_name("FILE");
-  verb.add_option("--test", options->test, "the card's test that was exported; without it that of export")
-      ->type_name("NAME");
-  verb.add_option("--packing", options->packing, "seed of the packing that was exported; without it the test's own")
+  verb.add_option("--test", options->test, "exported test of the card; default: as for export")->type_name("NAME");
+  verb.add_option("--packing", options->packing, "seed of the exported packing; default: that of the test")
       ->check(whole_number());
   verb.add_flag("--json", options->json, "print the readings as JSON");
   return [options] { return read_heap_of(*options); };

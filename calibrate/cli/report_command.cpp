@@ -39,8 +39,8 @@ int write_report(const ReportOptions& options) {
 
 Command add_report(CLI::App& verb) {
   const auto options = std::make_shared<ReportOptions>();
-  verb.add_option("DIR", options->folder, "folder of a calibration, also of one that is still running")->required();
-  verb.add_flag("--quick", options->quick, "do not simulate what the folder lacks, film and heaps");
+  verb.add_option("DIR", options->folder, "folder of a finished or running calibration")->required();
+  verb.add_flag("--quick", options->quick, "do not simulate a missing animation or missing heaps");
   add_threads(verb, options->threads);
   return [options] { return write_report(*options); };
 }

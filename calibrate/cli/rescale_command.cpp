@@ -41,7 +41,7 @@ int rescale(const RescaleOptions& options) {
                            options.check.threads, options.force, "larger grains, or fewer --packings"));
     const int simulations = options.packings * static_cast<int>(card.tests.size());
     // The number of grains scales with 1/R^3, that of steps with 1/R.
-    note("measuring the bias: %d simulations with either size, %.3g times the work with the new one\n", simulations,
+    note("measuring the bias: %d simulations of each size; the new size takes %.3g times the work\n", simulations,
          std::pow(card.material.grains.radius_m / radius, 4));
     WorkLine line("simulations", 2 * simulations);
     result = value_or_throw(with_measured_bias(card, std::move(result), options.packings, options.check,
@@ -62,10 +62,10 @@ Command add_rescale(CLI::App& verb) {
       ->check(number_from(0.01, 1000))
       ->type_name("MM");
   verb.add_option("--out", options->out, "file for the new card; -: standard output")->type_name("FILE");
-  verb.add_flag("--force", options->force, "replace FILE; compute for more than a day");
+  verb.add_flag("--force", options->force, "replace FILE; start even if it takes more than a day");
   verb.add_flag("--json", options->json, "print the new card itself");
   verb.add_option("--packings", options->packings,
-                  "simulations with either size that measure the bias; 0: carry over without measuring")
+                  "simulations of each size that measure the bias; 0: convert without measuring")
       ->check(whole_number(0, 0) | whole_number(2, 1000))
       ->capture_default_str();
   add_threads(verb, options->check.threads);

@@ -27,9 +27,8 @@ int show(const ShowOptions& options) {
 Command add_show(CLI::App& verb) {
   const auto options = std::make_shared<ShowOptions>();
   verb.add_option("CARD", options->card, "card file")->required();
-  verb.add_flag(
-      "--json", options->json,
-      "print the card itself, in the form of this program's version, with the yield stresses of its readings");
+  verb.add_flag("--json", options->json,
+                "print the card as JSON, in the format of this version, with the yield stresses of its readings");
   return [options] { return show(*options); };
 }
 

@@ -49,7 +49,7 @@ Faults checkpoint_faults(const SimulateOptions& options, const Scene& scene) {
   if (!test || std::holds_alternative<DropTest>(*test))
     return {{"--checkpoint", "is not available for a test of a few bodies", "leave it out"}};
   if (options.vtk_interval_s)
-    return {{"--checkpoint", "does not go with --vtk: a run that goes on would lack the pictures of its beginning",
+    return {{"--checkpoint", "cannot be combined with --vtk: a continued run would lack the first pictures",
              "leave one of them out"}};
   return output_file_faults("--checkpoint", options.checkpoint, true);
 }
@@ -90,7 +90,8 @@ Scene scene_of(const SimulateOptions& options) {
 
 /// Conflicts between options, or with the scene.
 Faults option_faults(const SimulateOptions& options, const Scene& scene) {
-  if (options.vtk_interval_s && options.out.empty()) return {{"--vtk", "has no folder to write to", "add --out DIR"}};
+  if (options.vtk_interval_s && options.out.empty())
+    return {{"--vtk", "needs a folder for its files", "add --out DIR"}};
   if (auto faults = effort_faults(options, scene); !faults.empty()) return faults;
   return checkpoint_faults(options, scene);
 }
@@ -132,12 +133,12 @@ std::string simulation_json(const Outcome& outcome, const Test* test,
 /// The same as text, without outlines. `packed`: the packing was random.
 void print_simulation(const Outcome& outcome, double wall_s, bool packed) {
   for (const auto& [name, value] : outcome.readings.all()) print("%-26s %12.6g\n", name.c_str(), value);
-  if (packed && !outcome.failure) print("One packing, error unknown: other packings (--seed) read differently.\n");
+  if (packed && !outcome.failure) print("One packing, error unknown: other packings (--seed) give other readings.\n");
   const auto& run = outcome.run;
   print("%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million\nparticle-steps a second)%s\n",
         static_cast<long long>(run.particles), run.particles == 1 ? "" : "s", static_cast<long long>(run.steps),
         run.time_step_s, run.simulated_s, wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
-        run.settled || outcome.failure ? "" : "; not quite at rest when its time was over");
+        run.settled || outcome.failure ? "" : "; not quite at rest at the end of the simulated time");
 }
 
 /// One line per point below the axis names.
@@ -189,7 +190,7 @@ class SingleSimulation {
     auto state = value_or_throw(file.read());
     saved_.emplace(std::move(file), std::move(state), stop_);
     if (saved_->goes_on())
-      note("pastefit: goes on from %s, after %.0f s\n", options_.checkpoint.c_str(), saved_->wall_s());
+      note("pastefit: continues from %s, after %.0f s\n", options_.checkpoint.c_str(), saved_->wall_s());
     run_.checkpoint = value_or_throw(saved_->checkpoint());
   }
 
@@ -213,7 +214,7 @@ class SingleSimulation {
   /// Prints and writes the results.
   int close(const Outcome& outcome, double wall_s) {
     if (saved_ && outcome.failure && outcome.failure->reason == FailureReason::stopped) {
-      std::fprintf(stderr, "pastefit: stopped in %s at %.4g s; the same command goes on from %s\n",
+      std::fprintf(stderr, "pastefit: stopped in %s at %.4g s; the same command continues from %s\n",
                    outcome.failure->phase.c_str(), outcome.failure->time_s, options_.checkpoint.c_str());
       return kFailed;
     }
@@ -273,28 +274,26 @@ Command add_simulate(CLI::App& verb) {
   verb.add_option("FILE", options->file, "study, card, laboratory, apparatus or impact file")->required();
   verb.add_option("--set", options->settings,
                   "PATH=VALUE, changes the file's content for this run, e.g. parameters.strength_pa=3000 or "
-                  "grains.radius_mm=6; may be given again")
+                  "grains.radius_mm=6; repeatable")
       ->type_name("PATH=VALUE")
       ->take_all();
-  verb.add_option("--test", options->test, "which test of a study or card that has several; without it the first")
+  verb.add_option("--test", options->test, "test of a study or card with several; default: the first")
       ->type_name("NAME");
   verb.add_option("--seed", options->seed, "seed of the random packing")->check(whole_number());
   verb.add_option("--out", options->out,
-                  "folder for " + kResult + ", " + kCurve + " of a test that draws one, and the ParaView series")
+                  "folder for " + kResult + ", " + kCurve + " of a test that has a curve, and the ParaView series")
       ->type_name("DIR");
-  verb.add_flag("--force", options->force,
-                "replace an earlier result in DIR; compute for more than a day, or write more pictures than the disk "
-                "has room for");
+  verb.add_flag(
+      "--force", options->force,
+      "replace an earlier result in DIR; start a run of more than a day, or a series larger than the free disk space");
   verb.add_option("--checkpoint", options->checkpoint,
-                  "file in which the run is kept every two minutes and when it is stopped; if it is there the run goes "
-                  "on from it, with the same result bit for bit; it is removed when the run is over")
+                  "file that saves the run every two minutes and when it is stopped; if it exists, the run continues "
+                  "from it, bit for bit; removed at the end of the run")
       ->type_name("FILE");
-  verb.add_option("--time-step", options->time_step_s,
-                  "fixed time step of the test; without it the step follows from the scene")
+  verb.add_option("--time-step", options->time_step_s, "fixed time step; default: the program chooses it")
       ->type_name("SECONDS")
       ->check(number_from(1e-9, 0.01));
-  add_threads(verb, options->threads,
-              "threads that share the grains of the simulation (1); the result does not change");
+  add_threads(verb, options->threads, "threads of the simulation (1); the result does not depend on it");
   verb.add_flag("--json", options->json, "print the outcome as JSON");
   verb.add_option("--vtk", options->vtk_interval_s, "simulated time between two pictures of a ParaView series")
       ->type_name("SECONDS")

@@ -21,7 +21,7 @@ struct TemplateOptions {
 std::string template_of_mould(const TemplateOptions& options) {
   if (auto own = template_text_of_mould(options.name, options.mould)) return *own;
   if (options.name != "lab" && options.name != "study")
-    refuse({{"--mould " + printable(options.mould), "goes with lab and study, not with " + printable(options.name),
+    refuse({{"--mould " + printable(options.mould), "is for lab and study, not for " + printable(options.name),
              "template lab --mould ..., template study --mould ..."}});
   std::string lab = value_or_throw(slump_lab_template(options.mould, "."));
   return options.name == "study" ? *template_text("study") : lab;
@@ -35,7 +35,7 @@ int print_template(TemplateOptions options, const std::string& names) {
     const std::string target = options.target.empty() ? std::string(target_laws().front().target) : options.target;
     const auto laws = laws_for(target, options.law);
     if (options.name != "study" || !options.mould.empty())
-      refuse({{options.law.empty() ? "--for" : "--law", "goes with the first study only", "template study --for ..."}});
+      refuse({{options.law.empty() ? "--for" : "--law", "is for the first study only", "template study --for ..."}});
     if (!laws) refuse({no_such_laws(target, options.law)});
     text = with_laws(*text, *laws);
   }
@@ -51,12 +51,12 @@ Command add_template(CLI::App& verb) {
   for (const auto& name : template_names()) names += (names.empty() ? "" : ", ") + name;
   const auto options = std::make_shared<TemplateOptions>();
   verb.add_option("NAME", options->name, "which one: " + names)->required();
-  verb.add_option("--for", options->target, "with the laws that this program runs exactly: " + names_of_targets())
+  verb.add_option("--for", options->target, "study with laws that this program has: " + names_of_targets())
       ->type_name("PROGRAM");
-  verb.add_option("--law", options->law, "with this law: " + names_of_laws())->type_name("LAW");
+  verb.add_option("--law", options->law, "study with this law: " + names_of_laws())->type_name("LAW");
   verb.add_option("--mould", options->mould,
-                  "with lab or study: a preset, whose table, grains and customary readings a laboratory file then has "
-                  "(abrams, mini-cone, haegermann-table, ...); lifted-cylinder has a study of its own")
+                  "for lab or study: preset (abrams, mini-cone, haegermann-table, ...) whose table, grains and usual "
+                  "readings the laboratory file gets; lifted-cylinder has a study of its own")
       ->type_name("PRESET");
   return [options, names] { return print_template(*options, names); };
 }

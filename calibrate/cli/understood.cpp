@@ -126,7 +126,7 @@ std::string changes_in(const Study& study, const Store& store) {
   if (store.changes().empty()) return "";
   return "Changed since the last run: " + changed_places(store) + ". " +
          std::to_string(earlier_of(study, store).size()) +
-         " candidates are known from before within the present bounds; they do not count in the budget.\n";
+         " stored candidates lie within the present bounds; they do not count towards the budget.\n";
 }
 
 /// Readings with a weight or tolerance in the study, but without a measurement.
@@ -134,7 +134,7 @@ std::string readings_not_measured(const Study& study) {
   std::string names;
   for (const StudyTest& test : study.tests)
     for (const std::string& name : test.not_measured) names += (names.empty() ? "" : ", ") + reading_name(test, name);
-  return names.empty() ? "" : "Weights and tolerances of readings that were not taken are left out: " + names + ".\n";
+  return names.empty() ? "" : "Ignored weights and tolerances, of readings that were not measured: " + names + ".\n";
 }
 
 }  // namespace
@@ -150,7 +150,8 @@ std::string understood(const Study& study, int threads) {
     if (!test.name.empty()) out += "Test " + test.name + "\n";
     out += apparatus_in_words(test.lab.test);
   }
-  return out + "To be met\n" + readings_to_be_met(study) + time_expected(study, threads) + unseen_parameters(study);
+  return out + "Fitted readings\n" + readings_to_be_met(study) + time_expected(study, threads) +
+         unseen_parameters(study);
 }
 
 std::string notes_on_readings(const Study& study) {

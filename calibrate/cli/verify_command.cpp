@@ -70,7 +70,7 @@ int run_verify(const VerifyOptions& options) {
 
 Command add_verify(CLI::App& verb) {
   const auto options = std::make_shared<VerifyOptions>();
-  verb.add_option("CASE", options->cases, "names of shipped cases, or case files; all shipped ones if none is given");
+  verb.add_option("CASE", options->cases, "names of shipped cases, or case files; default: all shipped cases");
   verb.add_flag("--json", options->json, "print every check at every point as JSON");
   verb.add_flag("--points", options->points, "print every point of a case, not only its worst");
   verb.add_flag("--formulas", options->formulas, "list the closed forms that a case may name");

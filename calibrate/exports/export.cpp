@@ -58,7 +58,7 @@ Result<Exporter> exporter_named(const std::string& name) {
   auto near = nearest(small, names);
   for (const std::string& one : names)
     if (!small.empty() && one.starts_with(small) && (!near || *near != small)) near = one;
-  return Fault{"--to " + printable(name), "is not a target of an export",
+  return Fault{"--to " + printable(name), "is not an export target",
                near ? "did you mean '" + *near + "'?" : "one of " + list};
 }
 
@@ -156,7 +156,7 @@ std::string comparison_text(const ExportRequest& request, const Card& card, cons
                             const std::string& heap, bool other_law) {
   std::string out;
   if (const auto packings = packings_in_words(card, test); !packings.empty() && !test.readings.empty()) {
-    const std::string heap_of = other_law ? "The card's heap, which this law does not leave" : "The heap to expect";
+    const std::string heap_of = other_law ? "The card's heap, which this law does not reproduce" : "The heap to expect";
     out += "\n" + heap_of + " (" + packings + "):\n";
     for (const CardReading& reading : test.readings)
       out += format("    %-28s %10.5g", reading.name.c_str(), reading.simulated) +
@@ -172,12 +172,13 @@ std::string comparison_text(const ExportRequest& request, const Card& card, cons
 /// Effect of a substitute law on the heap, and how to avoid it.
 std::string bias_text(const Export& written) {
   if (written.own_law.empty()) return {};
-  std::string out = "\nAnother law than the card's is written, so expect another heap.\n";
+  std::string out = "\nThe law differs from the card's, so expect another heap.\n";
   if (!written.heap.empty())
     out +=
         "To measure by how much: run the deck in three or more packings (pastefit export with --packing 1, 2, 3)\n"
         "and compare each heap by the command at the end; the mean difference is the bias of the law.\n";
-  return out + "To have none: calibrate with a law that this program has, in the study\n    " + written.own_law + "\n";
+  return out + "To avoid the bias: calibrate with a law that this program has, in the study\n    " + written.own_law +
+         "\n";
 }
 
 /// Content of `kExportNotes`.
@@ -185,7 +186,7 @@ std::string export_notes(const Export& written, const Exporter& exporter, const 
                          const ExportRequest& request) {
   std::string out = one_line(title_of(card, test)) + "\n" + std::string(exporter.meaning) + "\n\n" +
                     lines_of(choice_text(card, test));
-  out += written.notes.empty() ? "Nothing of the card's contact laws is lost.\n" : "What is lost or changed:\n";
+  out += written.notes.empty() ? "All of the card's contact laws are exported.\n" : "What is lost or changed:\n";
   for (const auto& note : written.notes) out += "- " + note + "\n";
   if (!written.instructions.empty()) out += "\nTo run it:\n" + written.instructions;
   out += lines_of(bias_text(written));
@@ -199,7 +200,7 @@ Faults unconfirmed_faults(const Card& card, bool accepted) {
   const std::string cause = cause_unconfirmed(card);
   if (cause.empty() || accepted) return {};
   return {{"--unconfirmed", "the card is not confirmed: " + cause,
-           "calibrate until it is confirmed, or give --unconfirmed: every file then begins with this"}};
+           "calibrate until it is confirmed, or give --unconfirmed: every file then begins with this warning"}};
 }
 
 /// Writes the reason as the first line of every file about the material, if the card is unconfirmed.

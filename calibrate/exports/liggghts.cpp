@@ -16,7 +16,7 @@ namespace pastefit {
 
 namespace {
 
-const char* const kNoDrop = "The deck runs step 1. The drop of the plate, step 2, is not part of it.";
+const char* const kNoDrop = "The deck simulates step 1 only, without the drop of the plate (step 2).";
 
 Models models_of(const ContactModel& contact, bool attracts) {
   if (yields(contact.normal)) {

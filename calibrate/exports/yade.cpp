@@ -100,13 +100,15 @@ Result<Export> export_yade(const ExportScene& scene) {
   out.notes = differences_of_sticking(scene, contact, "Yade", sticking.load_n);
   if (sticking.pull_off_n > 0 || contact.bridge.shape != BridgeShape::none)
     out.notes.push_back(
-        "The attraction, with formation, memory and rupture of bridges, runs in Python at every step: slow. It suits "
-        "thousands of grains, not millions.");
+        "The attraction, with formation, memory and rupture of bridges, runs in Python at every step, which is slow: "
+        "use thousands of grains, not millions.");
   const double pull = sticking.pull_off_n + cohesion_n(contact, scene.mean_pair());
   if (contact.normal == card.normal && contact.friction_basis != FrictionBasis::elastic && pull > 0)
     out.notes.push_back(
-        format("Yade's friction is that of the elastic force; on the card, of the total one. A contact that only its "
-               "attraction (%.3g N) presses together holds %.3g N in Yade, %.3g N on the card.",
+        format("Yade limits friction by the elastic force, the card by a force that includes the attraction. A contact "
+               "that is pressed "
+               "only by its "
+               "own attraction (%.3g N) resists sliding with up to %.3g N in Yade and %.3g N with the card's law.",
                pull, contact.friction * pull, contact.friction * held_normal_force_n(contact, sticking)));
   if (contact.rolling != RollingModel::none && contact.rolling_friction > 0)
     out.notes.push_back(
@@ -117,7 +119,7 @@ Result<Export> export_yade(const ExportScene& scene) {
   out.files = {{"material.py", module_of(scene, contact)}, {"two_grains.py", two_grains_script(scene, contact)}};
   if (contact.normal != card.normal) out.files.push_back(sticking_curves(scene, contact, "yade"));
   if (const SlumpTest* test = scene.slump()) {
-    if (test->drop) out.notes.push_back("The script runs step 1. The drop of the plate, step 2, is not part of it.");
+    if (test->drop) out.notes.push_back("The script simulates step 1 only, without the drop of the plate (step 2).");
     out.files.push_back({"slump.py", slump_script(*test)});
     out.files.push_back(grains_csv(scene));
   }

@@ -33,7 +33,7 @@ std::string exchange_of(const Inference& inference, const Combination& combinati
                     change(lead, ratio * step));
   }
   if (rates.empty()) return "";
-  return "  The others can make up for it: " + enumerated(rates) + ".\n";
+  return "  Other parameters can compensate for it: " + enumerated(rates) + ".\n";
 }
 
 /// "13.2 to 526", marked at an end that is the study's bound.
@@ -48,8 +48,8 @@ std::string determined_alone(const Inference& inference) {
   std::string out;
   if (inference.jumps)
     out += format(
-        "  %s jumps with %s: simulations that are left out differ from the others' model by more than three standard "
-        "deviations. Between neighbouring simulations nothing is predicted.\n",
+        "  %s jumps with %s: predicted from the other simulations, a simulation is off by more than three standard "
+        "deviations. There is no prediction between neighbouring simulations.\n",
         enumerated(inference.fitted).c_str(), one.name.c_str());
   if (one.prior || one.not_identified()) return out;
   const std::vector<std::string>& led = inference.combinations.front().readings;
@@ -62,8 +62,9 @@ std::string determined(const Inference& inference) {
   if (inference.intervals.size() == 1) return determined_alone(inference);
   if (inference.jumps)
     return format(
-        "  %s jumps near the recommended material: simulations that are left out differ from the others' model by more "
-        "than ten standard deviations. Nothing is predicted there, and no interval is given with the others held.\n",
+        "  %s jumps near the recommended material: predicted from the other simulations, a simulation is off by more "
+        "than ten standard deviations. There is no prediction there, and no interval with the other parameters "
+        "fixed.\n",
         enumerated(inference.fitted).c_str());
   std::string out;
   std::vector<std::size_t> said;
@@ -71,18 +72,17 @@ std::string determined(const Inference& inference) {
     const ParameterInterval& lead = inference.intervals[combination.lead];
     if (!combination.determined() || (said.empty() && !lead.held_exists())) continue;
     if (said.empty()) {
-      out += format(
-          "  %s %s %s to %s (95 %%), the other parameters "
-          "held at the recommended values.\n",
-          enumerated(combination.readings).c_str(), combination.readings.size() > 1 ? "fix" : "fixes",
-          lead.name.c_str(),
-          ends_in_words(lead.held_lower, lead.held_lower_known, lead.held_upper, lead.held_upper_known).c_str());
+      out +=
+          format("  %s %s %s to %s (95 %%), the other parameters fixed at the recommended values.\n",
+                 enumerated(combination.readings).c_str(), combination.readings.size() > 1 ? "fix" : "fixes",
+                 lead.name.c_str(),
+                 ends_in_words(lead.held_lower, lead.held_lower_known, lead.held_upper, lead.held_upper_known).c_str());
       out += exchange_of(inference, combination);
     } else {
       const std::string width = lead.scale == Scale::linear ? format("+-%.2g", combination.lead_width)
                                                             : format("+-%.0f %%", 100 * combination.lead_width);
-      out += format("  A further combination, led by %s, is fixed to %s by %s.\n", lead.name.c_str(), width.c_str(),
-                    enumerated(combination.readings).c_str());
+      out += format("  A further combination, mainly of %s, is determined to %s by %s.\n", lead.name.c_str(),
+                    width.c_str(), enumerated(combination.readings).c_str());
     }
     said.push_back(combination.lead);
   }
@@ -93,14 +93,14 @@ std::string determined(const Inference& inference) {
 
 /// Contributions of prior and readings to a parameter.
 std::string prior_line(const ParameterInterval& one) {
-  const std::string known = format("  %s was known to be %s +- %s; ", one.name.c_str(), plain(one.prior->value).c_str(),
+  const std::string known = format("  %s had the prior %s +- %s; ", one.name.c_str(), plain(one.prior->value).c_str(),
                                    plain(one.prior->standard_deviation).c_str());
   if (one.uncertainty > worth_measuring)
-    return known + format("the readings add nothing: %s (95 %%) comes from the prior.\n",
+    return known + format("the readings do not narrow it: the interval %s (95 %%) comes from the prior.\n",
                           ends_in_words(one.lower, one.lower_known, one.upper, one.upper_known).c_str());
-  return known + format("with the readings %s (95 %%), which leaves %.0f %% of the prior's uncertainty.\n",
-                        ends_in_words(one.lower, one.lower_known, one.upper, one.upper_known).c_str(),
-                        100 * one.uncertainty);
+  return known +
+         format("with the readings the interval is %s (95 %%), which leaves %.0f %% of the prior's uncertainty.\n",
+                ends_in_words(one.lower, one.lower_known, one.upper, one.upper_known).c_str(), 100 * one.uncertainty);
 }
 
 /// Why there is no interval of a parameter.
@@ -154,11 +154,11 @@ std::string conditions(const Inference& inference) {
     for (const ConditionEffect::Reading& reading : one.readings)
       moved.push_back(reading.name + " from " + plain(reading.at_lower, 4) + " to " + plain(reading.at_upper, 4));
     out += "  " + one.place + ", " + plain(one.lower) + " to " + plain(one.upper) + ": " +
-           (moved.empty() ? "not known, as heaps shear off there" : enumerated(moved)) + ".\n";
+           (moved.empty() ? "not known, because heaps shear off there" : enumerated(moved)) + ".\n";
   }
   if (out.empty()) return out;
-  return "What the files do not state, from half to twice the assumed value, and what it moves\n" + out +
-         "  The intervals contain it. State what you know in the laboratory file or the study.\n";
+  return "Conditions that the files do not state: readings at half and at twice the assumed value\n" + out +
+         "  The intervals include this. State what you know in the laboratory file or the study.\n";
 }
 
 /// One column for each material, so that five fit 80 columns.
@@ -209,7 +209,7 @@ std::string enumerated(const std::vector<std::string>& words) {
 }
 
 std::string what_is_determined(const Inference& inference) {
-  return "What the readings say of the parameters (" + std::to_string(inference.simulations) + " simulations)\n" +
+  return "What the readings determine (" + std::to_string(inference.simulations) + " simulations)\n" +
          determined(inference) + intervals(inference) + conditions(inference) + "What to measure next\n" +
          next(inference);
 }
@@ -250,7 +250,7 @@ std::string warning_before(int parameters, int priors, const std::vector<std::st
   return std::to_string(parameters) + " parameters are free, and " + readings + " at most " +
          std::to_string(fitted.size()) + (fitted.size() == 1 ? " combination" : " combinations") + " of them" +
          (priors > 0 ? ", beside " + std::to_string(priors) + " that are known beforehand" : "") +
-         ": many materials will fit. The summary will say which.\n";
+         ": many materials will fit. The summary will list some of them.\n";
 }
 
 }  // namespace pastefit

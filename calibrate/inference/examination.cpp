@@ -24,7 +24,7 @@ std::vector<UnitPoint> predicted_members(const Inference& inference) {
 
 std::string reason_for(bool confirmed, std::size_t packings) {
   return confirmed ? "which was confirmed on " + std::to_string(packings) + " fresh packings"
-                   : "the best that was found; it is not confirmed";
+                   : "the best one found; it is not confirmed";
 }
 
 Examination::Examination(std::function<TrainingData(std::span<const Response>)> training_data,

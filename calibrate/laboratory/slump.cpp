@@ -149,10 +149,10 @@ std::string unseen_by(const SlumpTest&, std::span<const std::string_view> readin
   if (std::ranges::any_of(readings, [](std::string_view name) { return name == "step1.angle_of_repose_deg"; }))
     return names.find(',') == names.npos ? ""
                                          : "Free with an angle of repose and no width: " + names +
-                                               ".\nMany pairs of sliding and rolling friction give one angle: fix one "
-                                               "of them, or measure the spread.";
+                                               ".\nMany pairs of sliding and rolling friction give the same angle: fix "
+                                               "one of them, or measure the spread.";
   return "Free without a reading of the spread: " + names +
-         ".\nThe height alone does not tell friction from strength: fix it, e.g.\n"
+         ".\nThe height alone cannot separate friction from strength: fix the friction, e.g.\n"
          "\"friction\": {\"value\": 0.15}, or measure the spread.";
 }
 
@@ -199,15 +199,17 @@ std::string remarks_on(const SlumpTest& test, std::span<const Readings> runs) {
   if (sheared == 0) return {};
   const double limit_mm = mm * kShearedShift * wider_radius_m(test.mould);
   if (runs.size() == 1)
-    return format("the heap sheared off: its top shifted by %.0f mm, more than %g mm; the standards reject such a test",
-                  *runs[0].find("step1.lateral_shift_mm"), limit_mm);
+    return format(
+        "the heap sheared off: its top shifted by %.0f mm, more than %g mm; standards require such a test to be "
+        "repeated",
+        *runs[0].find("step1.lateral_shift_mm"), limit_mm);
   const ProbabilityInterval share = binomial_interval(sheared, sheared + whole);
   const std::string heaps = format(
-      "%d of %zu heaps sheared off (95 %% interval of the share: %.0f to %.0f %%; top shifted by more than %g mm); the "
-      "standards have such a test repeated",
+      "%d of %zu heaps sheared off (95 %% interval of the share: %.0f to %.0f %%; top shifted by more than %g mm); "
+      "standards require such a test to be repeated",
       sheared, runs.size(), 100 * share.lower, 100 * share.upper, limit_mm);
-  if (whole == 0) return heaps + ", so that none of these readings would be reported";
-  return heaps + format(", and the readings are of the others (height after step 1 with them: %.1f mm)",
+  if (whole == 0) return heaps + ", so the readings are means of sheared heaps";
+  return heaps + format(", so the means exclude these heaps (height after step 1 with them: %.1f mm)",
                         all_mm / (sheared + whole));
 }
 

@@ -19,9 +19,9 @@ BoundEnds bounds_in(const Card& card, const CardInference::Interval& interval) {
 
 std::string inference_lines(const Card& card) {
   const CardInference& inference = card.inference;
-  std::string out = "What the readings leave open\n";
+  std::string out = "Intervals of the parameters\n";
   if (inference.intervals.empty() && inference.not_identified.empty())
-    return out + "  not worked out: other materials may meet the same readings\n";
+    return out + "  not calculated: other materials may fit the same readings\n";
   if (!inference.intervals.empty())
     out += format("  intervals of %g %% confidence (%s)\n", 100 * inference.level, inference.method.c_str());
   for (const auto& interval : inference.intervals)
@@ -47,7 +47,7 @@ std::string conditions_lines(const Card& card) {
                 : format("  grains                   radius %g to %g mm\n", 1e3 * grains.smallest_m,
                          1e3 * grains.largest_m);
   }
-  return out + "  elsewhere the material is an extrapolation\n";
+  return out + "  under other conditions the material is an extrapolation\n";
 }
 
 std::string origin_lines(const Card& card) {
@@ -69,7 +69,7 @@ std::string baseline_lines(const Card& card) {
     const auto& baseline = test.baseline;
     out += "  " + (test.name.empty() ? "" : test.name + ": ");
     if (baseline.runs.empty())
-      out += "none: checks use means and deviations of the readings above\n";
+      out += "none: checks use the means and standard deviations of the readings above\n";
     else
       out += format("%zu packings, ", baseline.runs.size()) + baseline.program + ", " + baseline.machine + "\n";
   }
@@ -84,8 +84,8 @@ std::string baseline_lines(const Card& card) {
 std::string rescaling_lines(const Card& card) {
   std::string out;
   for (const auto& step : card.rescaled) {
-    out += format("Carried over from grains of %g mm radius by the scaling rule\n", 1e3 * step.from_radius_m);
-    if (step.bias.empty()) out += "  what that does to the readings was not measured\n";
+    out += format("Converted from grains of %g mm radius by the scaling rule\n", 1e3 * step.from_radius_m);
+    if (step.bias.empty()) out += "  the bias of the readings was not measured\n";
     for (const auto& bias : step.bias)
       out +=
           format("  %-24s %12.5g -> %.5g, bias %+.3g", bias.reading.c_str(), bias.before, bias.after,
@@ -100,8 +100,8 @@ std::string rescaling_lines(const Card& card) {
 std::string doubt_about(const FurtherConfirmation& one) {
   const std::size_t heaps = one.packings.size(), rejected = heaps - static_cast<std::size_t>(one.accepted);
   if (one.meets_laboratory || *one.error > 1) return "";
-  if (rejected > 0) return format("; %zu of %zu heaps are ones that a laboratory would reject", rejected, heaps);
-  return format("; %zu packings are too few to be certain of it (--packings)", heaps);
+  if (rejected > 0) return format("; %zu of %zu heaps sheared off", rejected, heaps);
+  return format("; %zu packings are too few for a decision (--packings)", heaps);
 }
 
 }  // namespace
@@ -116,8 +116,8 @@ std::string further_confirmation_text(const FurtherConfirmation& one) {
                   reading.bias()) +
            (reading.standard_error ? format(" +- %.2g\n", *reading.standard_error) : " (error unknown)\n");
   if (!one.error) return out;
-  return out + "  The material " + (one.meets_laboratory ? "meets" : "is not shown to meet") +
-         format(" the laboratory there: largest error %.2f of its tolerance", *one.error) + doubt_about(one) + ".\n";
+  return out + "  The material " + (one.meets_laboratory ? "reproduces" : "is not shown to reproduce") +
+         format(" the measurement there: largest error %.2f of its tolerance", *one.error) + doubt_about(one) + ".\n";
 }
 
 std::string text_of(const Card& card) {

@@ -166,7 +166,7 @@ std::string comparison_lines(std::span<const CardFile> cards) {
     return std::ranges::find(one.excluded, true) != one.excluded.end();
   };
   if (std::ranges::any_of(parameters, marked))
-    return out + "\n* outside the interval that another card has of this parameter: they disagree.\n";
+    return out + "\n* outside the interval of another card: the two cards disagree.\n";
   return out + "\nNo card's interval excludes the value of another one.\n";
 }
 

@@ -30,15 +30,14 @@ void infer_from(const Store& store, const std::optional<Inference>& known, Findi
   const bool of_use =
       std::ranges::any_of(record, [](const StoredEvaluation& one) { return !one.failure && !one.run.ended_early; });
   if (!of_use) {
-    findings.missing.push_back(
-        "None of the stored simulations is one of the card's tests run to its end: nothing is inferred from them.");
+    findings.missing.push_back("No stored simulation of the card's tests is complete, so there are no intervals.");
     return;
   }
   findings.evidence = training_data_of(*findings.study, record);
   findings.evidence->conditions = card.inference.conditions;
   if (card.search.status == "out_of_reach") {
     findings.missing.push_back(
-        "The laboratory was out of reach, and readings that no material meets say nothing of the parameters.");
+        "A measured reading was out of reach; readings that no material reproduces do not determine parameters.");
     return;
   }
   findings.inference = known ? *known : inference_of(card, *findings.evidence);
@@ -46,7 +45,7 @@ void infer_from(const Store& store, const std::optional<Inference>& known, Findi
 
 void take_evaluations(const Store& store, const std::optional<Inference>& inference, Findings& findings) {
   for (const std::string& remark : store.remarks())
-    findings.missing.push_back("The record of the search is not whole: " + remark + ".");
+    findings.missing.push_back("The record of the search is incomplete: " + remark + ".");
   findings.evaluations = store.all();
   findings.program = store.identity().program;
   if (findings.card) infer_from(store, inference, findings);
@@ -88,7 +87,7 @@ Result<Findings> read_findings(const fs::path& folder, const std::string& store)
   Findings findings;
   if (!has_card) {
     findings.missing.push_back("There is no " + kCardFile +
-                               ": the calibration has not ended, or was interrupted before it had an answer.");
+                               ": the calibration is still running, or was interrupted before it had a result.");
   } else if (auto card = read_card(card_file); card.ok()) {
     take_card(std::move(card).value(), findings);
   } else {

@@ -14,7 +14,7 @@ namespace pastefit {
 namespace {
 
 std::string parameter_lines(const Card& card) {
-  std::string out = "Scale-free, the same law for every grain size\n";
+  std::string out = "Scale-free parameters, the same for every grain size\n";
   for (const auto& parameter : card.material.parameters) {
     if (!has_parameter(card, parameter.name)) continue;
     out += format("  %-24s %14.6g", parameter.name.c_str(), parameter.value);
@@ -47,7 +47,8 @@ std::string reading_lines(const Card& card) {
   std::string out =
       format("%-26s %10s %10s %-20s%10s\n", "Reading", "measured", "+- sd", "simulated +- error", "difference");
   for (const auto& test : card.tests) {
-    if (!test.name.empty()) out += "Test " + test.name + (test.hold_out ? ", held out: predicted, not fitted\n" : "\n");
+    if (!test.name.empty())
+      out += "Test " + test.name + (test.hold_out ? ", validation test: predicted, not fitted\n" : "\n");
     out += test.readings.empty() ? "  not simulated\n" : reading_lines(test.readings);
   }
   if (packings == 1) out += "  Simulated: one packing, error unknown.\n";
@@ -60,8 +61,8 @@ std::string measured_yield_stress_lines(const CardTest& test, const std::vector<
   std::string out = format("  %-24s %10.4g %10.3g %10s Pa  measured\n", reading_name(test, "yield_stress_pa").c_str(),
                            test.yield_stress->value, test.yield_stress->standard_deviation, "-");
   for (const ComparedYieldStress& one : compared)
-    out += format("    by %s: %.2g times what was measured, %+.2g deviations\n", one.reading.c_str(), *one.ratio,
-                  *one.deviations);
+    out += format("    by %s: %.2g times the measured one, %+.2g standard deviations\n", one.reading.c_str(),
+                  *one.ratio, *one.deviations);
   return out;
 }
 
@@ -78,7 +79,7 @@ std::string yield_stress_lines(const Card& card) {
     }
     out += measured_yield_stress_lines(test, compared);
   }
-  return out.empty() ? out : "Yield stress that a fluid with this reading would have (nothing is fitted to it)\n" + out;
+  return out.empty() ? out : "Yield stress of a fluid with this reading (for comparison, not fitted)\n" + out;
 }
 
 std::string hold_out_lines(const Card& card) {
@@ -93,7 +94,7 @@ std::string remark_lines(const Card& card) {
   std::string out;
   for (const auto& test : card.tests) {
     const auto say = [&](const std::string& remark) { out += heading_of(test) + remark + ".\n"; };
-    if (test.lab.twin) say("The laboratory's data were made by a simulation (a twin)");
+    if (test.lab.twin) say("The data of the laboratory file come from a simulation (a twin)");
     for (const std::string& note : check_readings(test.test, laboratory_measurements(test)).notes)
       say("Laboratory: " + note);
   }
@@ -136,17 +137,18 @@ std::string verdict_on_fitted(const Card& card) {
        : accepted < packings ? format(" (mean of %zu of %zu packings)", accepted, packings)
                              : format(" (mean of %zu packings)", packings));
   if (confirmation.meets_laboratory)
-    return std::string("The material meets the laboratory") +
+    return std::string("The material reproduces the measurement") +
            (reservations_on(card).empty() ? "" : ", with reservations") + ": " + largest + ".";
   if (!confirmation.fresh)
-    return "Not confirmed on fresh packings: " + largest + ", on packings that the search has seen. " +
+    return "Not confirmed on fresh packings: " + largest + " (mean over packings that the search has used). " +
            card.search.reason;
   if (only_heaps_refute(card))
-    return "Readings met; " + cause_unconfirmed(card) + ": " + largest + ". " + card.search.reason;
+    return "The readings are within their tolerances, but " + cause_unconfirmed(card) + ": " + largest + ". " +
+           card.search.reason;
   if (confirmation.error <= 1 && !confirmation.refuted)
-    return "It is uncertain whether the material meets the laboratory: " + cause_unconfirmed(card) + ": " + largest +
-           ". " + card.search.reason;
-  return "The material does not meet the laboratory: " + cause_unconfirmed(card) + ": " + largest + ". " +
+    return "It is uncertain whether the material reproduces the measurement: " + cause_unconfirmed(card) + ": " +
+           largest + ". " + card.search.reason;
+  return "The material does not reproduce the measurement: " + cause_unconfirmed(card) + ": " + largest + ". " +
          card.search.reason;
 }
 
@@ -166,7 +168,7 @@ std::string hold_out_in_words(const CardTest& test) {
 std::string verdict_of(const Card& card) {
   if (card.interpolated)
     return interpolation_in_words(*card.interpolated) +
-           ". No reading of this mix was met: measure it, and hold the card against it (pastefit check --against).";
+           ". The mix was not measured: measure it, and compare the card with it (pastefit check --against).";
   const std::string next = what_to_try(card);
   return verdict_on_fitted(card) + unfitted_words(card) + (next.empty() ? "" : " What to try now: " + next + ".");
 }

@@ -123,8 +123,8 @@ TypeInGroup attraction_of(const Material& material) {
        bridge.formation == BridgeFormation::film ? "liquid shell of a grain" : "not used: forms at touch"});
   group.rows.push_back({"cohesion", contact.cohesion_n.value_or(at_touch), "N", "constant attraction in overlap"});
   if (bridge.viscosity_pa_s > 0) {
-    group.rows.push_back({"viscosity", bridge.viscosity_pa_s, "Pa s", "lubrication of a living bridge"});
-    group.rows.push_back({"roughness", milli * kRoughness * radius, "mm", "least gap that lubrication reckons with"});
+    group.rows.push_back({"viscosity", bridge.viscosity_pa_s, "Pa s", "viscous force of a bridge"});
+    group.rows.push_back({"roughness", milli * kRoughness * radius, "mm", "smallest gap in the viscous force"});
   }
   return group;
 }
@@ -167,7 +167,7 @@ std::vector<std::string> damping_law(NormalLaw law) {
 }
 
 std::string type_in_lines(const Card& card) {
-  std::string out = "Type this into your DEM program (numbers hold for grains of this size)\n";
+  std::string out = "Type this into your DEM program (valid for grains of this size only)\n";
   for (const TypeInGroup& group : type_in_table(card)) {
     out += "  " + group.title + "\n";
     for (const TypeInRow& row : group.rows) {

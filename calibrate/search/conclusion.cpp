@@ -35,19 +35,19 @@ std::string doubt_about(const Calibration& result, const ErrorUnit& unit, double
   const Evidence evidence = evidence_of(told);
   const Verdict verdict = verdict_on(evidence, rejected_share);
   if (verdict != verdict_on_readings(evidence)) {
-    const std::string heaps = format("Of the best candidate's %zu heaps a laboratory would reject %d",
-                                     told.evaluations.size(), told.rejected);
+    const std::string heaps =
+        format("Of the best candidate's %zu heaps %d sheared off", told.evaluations.size(), told.rejected);
     if (verdict == Verdict::refuted && told.rejected > 0)
       return heaps + format(": more than a share of %g", rejected_share) + spent;
-    if (verdict == Verdict::refuted) return heaps + ", but all came near to it" + spent;
-    return heaps + format(": it is not yet known whether at most a share of %g shears off", rejected_share) + spent +
+    if (verdict == Verdict::refuted) return heaps + ", but all came close to it" + spent;
+    return heaps + format(": it is not yet known whether the share is at most %g", rejected_share) + spent +
            " Allow more simulations.";
   }
   const std::string tolerance = tolerance_in_words(unit);
-  std::string words = "The best candidate misses the laboratory by " + unit.words(told.error);
+  std::string words = "The best candidate differs from the measurement by " + unit.words(told.error);
   if (told.error > 1) return words + ", more than " + tolerance + spent;
-  if (result.confirmation.point.size() == 0) return words + ", not on fresh packings" + spent;
-  return words + " +- " + unit.words(told.noise) + ": its packings scatter too much to be sure of " + tolerance +
+  if (result.confirmation.point.size() == 0) return words + ", but not on fresh packings" + spent;
+  return words + " +- " + unit.words(told.noise) + ": its packings scatter too much for a decision on " + tolerance +
          spent + " Allow more simulations.";
 }
 
@@ -60,24 +60,25 @@ void explain(Calibration& result, const Ending& ending, const ErrorUnit& unit, s
   const std::string spent = " (" + std::to_string(result.simulations) + " simulations" + coarse + ").";
   if (ending.confirmed) {
     result.status = CalibrationStatus::confirmed;
-    result.reason = "The candidate misses the laboratory by " + unit.words(result.confirmation.error) + " on " +
+    result.reason = "The candidate differs from the measurement by " + unit.words(result.confirmation.error) + " on " +
                     std::to_string(result.confirmation.packings.size()) + " fresh packings, within " +
                     tolerance_in_words(unit) + spent;
   } else if (ending.stopped) {
     result.status = CalibrationStatus::stopped;
     result.reason = (result.best.point.size() > 0
-                         ? "The search was stopped; the best so far is given"
-                         : "The search was stopped before a simulation had all its readings; --resume goes on") +
+                         ? "The search was stopped; this is the best material so far"
+                         : "The search was stopped before a simulation had all its readings; --resume continues") +
                     spent;
   } else if (ending.out_of_reach && !ending.searched) {
     result.status = CalibrationStatus::out_of_reach;
     result.reason = describe(*ending.out_of_reach, readings, parameters) +
-                    " The search was not begun; the material that comes nearest is given" + spent;
+                    " The search was not started; this is the nearest material" + spent;
   } else if (!ending.any_feasible) {
     result.status = CalibrationStatus::failed;
-    result.reason = "Every simulation failed" + spent + " Look at the reasons, and move the bounds away from them.";
+    result.reason =
+        "Every simulation failed" + spent + " Look at the reasons, and move the bounds away from that region.";
   } else if (result.best.point.size() == 0) {
-    result.reason = "No candidate was simulated to its end" + spent + " Allow more simulations.";
+    result.reason = "No simulation of a candidate is complete" + spent + " Allow more simulations.";
   } else {
     result.status = CalibrationStatus::unconfirmed;
     result.reason = doubt_about(result, unit, ending.rejected_share, spent);
@@ -85,12 +86,12 @@ void explain(Calibration& result, const Ending& ending, const ErrorUnit& unit, s
       const Reach& reach = result.reach[k];
       const std::string name = k < readings.size() ? readings[k] : "reading " + std::to_string(k + 1);
       result.reason +=
-          " " + name + " went from " + format("%.3g", reach.lowest) + " to " + format("%.3g", reach.highest);
+          " Simulated values of " + name + ": " + format("%.3g", reach.lowest) + " to " + format("%.3g", reach.highest);
       if (reach.all_above || reach.all_below) {
         const bool certain = ending.out_of_reach && ending.out_of_reach->reading == k;
         if (certain) result.status = CalibrationStatus::out_of_reach;
         result.reason +=
-            std::string(", always ") + (reach.all_above ? "above" : "below") + " the laboratory" +
+            std::string(", all ") + (reach.all_above ? "above" : "below") + " the measured one" +
             (certain ? ": the model cannot reach it within these bounds" : ", which may still be in reach");
       }
       result.reason += ".";

@@ -235,9 +235,9 @@ std::string describe(const OutOfReach& found, std::span<const std::string> readi
   std::string out =
       name_at(readings, found.reading, "reading ") + " is out of reach: all simulated values are " +
       format("%s the measured %.3g. The %s predicted value within these bounds is %.3g",
-             found.above ? "above" : "below", found.measured, found.above ? "least" : "largest", found.likely) +
+             found.above ? "above" : "below", found.measured, found.above ? "smallest" : "largest", found.likely) +
       format(", %s %.3g with 99.9 %% probability", found.above ? "at least" : "at most", found.at_best);
-  if (found.bounds.empty()) return out + ". No bound limits it: the model does, or its grains.";
+  if (found.bounds.empty()) return out + ". The limit is not a bound but the model or its grains.";
   out += found.bounds.size() == 1 ? ". The limit is" : ". The limits are";
   for (std::size_t i = 0; i < found.bounds.size(); ++i)
     out += std::string(i == 0 ? " the " : " and the ") + (found.bounds[i].upper ? "upper" : "lower") + " bound of " +
@@ -247,7 +247,7 @@ std::string describe(const OutOfReach& found, std::span<const std::string> readi
 
 std::string describe_withdrawal(const OutOfReach& found, std::span<const std::string> readings) {
   return name_at(readings, found.reading, "reading ") +
-         " is not out of reach for certain: a simulation came nearer than expected, and the search goes on.";
+         " may be in reach after all: a simulation came nearer than expected, and the search continues.";
 }
 
 std::string describe_screening(std::span<const Response> singles, std::span<const std::string> readings) {

@@ -99,7 +99,7 @@ std::optional<Failure> failure_from_json(const json& in) {
   int index = 0;
   while (name_of(static_cast<FailureReason>(index)) != reason) {
     if (static_cast<FailureReason>(index) == FailureReason::stopped)
-      throw std::invalid_argument("'" + reason + "' is not a reason of failure");
+      throw std::invalid_argument("'" + reason + "' is not a known reason of a failure");
     ++index;
   }
   out.reason = static_cast<FailureReason>(index);

@@ -38,17 +38,17 @@ struct GrainLength {
   }
 };
 constexpr std::array<GrainLength, 4> grain_lengths{
-    {{"radius_mm", "of every grain, or the mean", &GrainSizes::radius_m, true, false, true},
-     {"standard_deviation_mm", "of the radius, before it is cut off", &GrainSizes::standard_deviation_m, false, false,
-      true},
+    {{"radius_mm", "radius of every grain, or mean radius", &GrainSizes::radius_m, true, false, true},
+     {"standard_deviation_mm", "standard deviation of the radius, before truncation", &GrainSizes::standard_deviation_m,
+      false, false, true},
      {"smallest_mm", "least radius", &GrainSizes::smallest_m, false, true, true},
      {"largest_mm", "largest radius", &GrainSizes::largest_m, false, true, true}}};
 
 template <class Fields>
 void describe_file_provenance(Fields& fields, Provenance& provenance) {
   fields.text({"source", "who measured, where, when; or the publication"}, provenance.source, Need::required);
-  fields.text({"licence", "under which they may be passed on"}, provenance.licence, Need::optional);
-  fields.text({"notes", "what else somebody should know, as what was assumed"}, provenance.notes, Need::optional);
+  fields.text({"licence", "licence of the data"}, provenance.licence, Need::optional);
+  fields.text({"notes", "other information, e.g. what was assumed"}, provenance.notes, Need::optional);
   fields.flag({"twin", "true: simulated with known parameters, not measured"}, provenance.twin, Need::optional);
 }
 
@@ -211,7 +211,7 @@ void tell_provenance(ObjectSchema& document) {
 void tell_test(ObjectSchema& document, bool presets) {
   const std::string usual = "which laboratory test; \"" + std::string(kind_of(Test())) + "\" where it is not said";
   document.put({"test", usual}, {{"enum", kinds_of_tests()}}, Need::optional);
-  document.put({"apparatus", "the apparatus as it stands in the laboratory; which keys it has is the test's word"},
+  document.put({"apparatus", "dimensions and motions of the apparatus; its keys depend on the test"},
                schema_of_apparatus(document, presets), Need::required);
 }
 
@@ -225,23 +225,22 @@ void tell_grains(ObjectSchema& document, Need need) {
   for (const auto& [name, distribution] : size_distributions)
     forms.push_back(document.described([&, word = name, own = distribution](ObjectSchema& form) {
       form.constant({"distribution",
-                     "mono: all of one radius; uniform: all radii between two are as likely; normal: cut off at both "
-                     "ends"},
+                     "mono: one radius; uniform: all radii of a range equally likely; normal: truncated at both ends"},
                     word, Need::required);
       for (const GrainLength& one : grain_lengths)
         if (one.belongs_to(own)) form.number({one.key, one.meaning}, 0, grain_length, Need::required);
     }));
-  document.put({"grains", "those of the simulation, not of the aggregate"}, {{"oneOf", forms}}, need);
+  document.put({"grains", "grains of the simulation, not of the aggregate"}, {{"oneOf", forms}}, need);
 }
 
 ObjectSchema::Json apparatus_schema() {
   ObjectSchema::Json object, definitions;
   ObjectSchema schema(object, definitions);
-  schema.constant({"format", "says what file it is, and in which version"}, "pastefit-rig-1", Need::required);
-  schema.text({"title", "one line for people"}, "", Need::required);
+  schema.constant({"format", "kind of file and version of its format"}, "pastefit-rig-1", Need::required);
+  schema.text({"title", "title, one line"}, "", Need::required);
   tell_provenance(schema);
   tell_test(schema, false);
-  schema.object({"material", "as the laboratory prepares it"}, Need::required, tell_density);
+  schema.object({"material", "the fresh material"}, Need::required, tell_density);
   tell_grains(schema, Need::required);
   schema.object({"readings",
                  "those that are customary, each with its usual value; `pastefit template lab` prints "

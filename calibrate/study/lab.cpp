@@ -25,7 +25,7 @@ void ask_about_sizes(const Test& test, Questions& questions) {
     questions.ask(std::string(place),
                   "is " + shown(value) + own + ", far from the " + shown(smallest) + " to " + shown(largest) + own +
                       " of such tests",
-                  others.empty() ? "look for a slip" : "look at its unit (" + others + ")");
+                  others.empty() ? "check it for a typing error" : "look at its unit (" + others + ")");
   }
 }
 
@@ -48,7 +48,7 @@ Faults with_defaults_named(Faults faults, const nlohmann::json& document, bool p
   for (Fault& fault : faults) {
     const bool key = fault.where.starts_with("apparatus.") || fault.where.starts_with("grains.");
     if (!key || has_place(document, fault.where)) continue;
-    fault.what += preset ? ", as the preset says" : ", which is the default";
+    fault.what += preset ? " (from the preset)" : " (the default)";
     fault.remedy += "; add the key";
   }
   return faults;
@@ -75,14 +75,13 @@ std::string note_on_yield_stress(const Lab& lab) {
     readings += (readings.empty() ? "" : ", ") + std::string(one.key) + " " + shown(rounded(one.value, 3)) + " +- " +
                 shown(rounded(one.standard_deviation, 2)) + " (" + std::string(one.formula) + ")";
   return "the yield stress of " + shown(lab.yield_stress->value) + " Pa is compared, not fitted; " +
-         (readings.empty() ? "no formula says what a fluid with it would read"
-                           : "a fluid with it would read " + readings);
+         (readings.empty() ? "no formula predicts a reading from it" : "a fluid with it would have " + readings);
 }
 
 template <class Fields>
 void describe_repeats(Fields& fields, Lab::Repeats& repeats) {
-  fields.integer({"made", "heaps, those that sheared off included"}, repeats.made, 1, 1000, Need::required);
-  fields.integer({"sheared", "heaps that sheared off and so have no readings; fewer than were made"}, repeats.sheared,
+  fields.integer({"made", "number of heaps, including those that sheared off"}, repeats.made, 1, 1000, Need::required);
+  fields.integer({"sheared", "number of heaps that sheared off and have no readings; less than made"}, repeats.sheared,
                  0, 1000, Need::required);
 }
 
@@ -102,8 +101,8 @@ void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats)
                    std::to_string(repeats.sheared) + " of " + std::to_string(repeats.made) + " repeats sheared off",
                    "at most as many as were made, those that sheared off included");
     else if (repeats.sheared == repeats.made)
-      reader.fault("sheared", "all repeats sheared off, so that there is no height to report",
-                   "a smaller apparatus, or a test of the flow: this material does not suit the test");
+      reader.fault("sheared", "all repeats sheared off, so there is no height to report",
+                   "use a smaller apparatus or a flow test: this test does not suit the material");
   });
   const int stood = repeats.made - repeats.sheared;
   for (const Measurement& one : lab.measurements)
@@ -207,18 +206,18 @@ ObjectSchema::Json lab_schema() {
   using Json = ObjectSchema::Json;
   Json object, definitions;
   ObjectSchema schema(object, definitions);
-  schema.constant({"format", "says what file it is, and in which version"}, "pastefit-lab-1", Need::required);
-  schema.text({"title", "one line for people"}, "", Need::required);
+  schema.constant({"format", "kind of file and version of its format"}, "pastefit-lab-1", Need::required);
+  schema.text({"title", "title, one line"}, "", Need::required);
   schema.texts({"confirmed",
-                "places of this file that look like a slip and are right, as the program names them: "
+                "keys of this file whose values look like a mistake but are correct, as the program names them: "
                 "[\"material.bulk_density_kg_m3\"]"},
                {}, Need::optional);
   schema.texts(
-      {"assumed", "places of this file whose numbers are assumed, not measured: [\"apparatus.lift_velocity_mm_s\"]"},
-      {}, Need::optional);
+      {"assumed", "keys of this file whose values are assumed, not measured: [\"apparatus.lift_velocity_mm_s\"]"}, {},
+      Need::optional);
   tell_provenance(schema);
   tell_test(schema, true);
-  schema.object({"material", "as the laboratory prepares it"}, Need::required, [](ObjectSchema& material) {
+  schema.object({"material", "the fresh material"}, Need::required, [](ObjectSchema& material) {
     tell_density(material);
     tell_yield_stress(material);
   });
@@ -226,21 +225,21 @@ ObjectSchema::Json lab_schema() {
   mix["propertyNames"]["pattern"] = "^[a-z][a-z0-9_]*$";
   mix["additionalProperties"] = {{"type", "number"}, {"minimum", -largest_quantity}, {"maximum", largest_quantity}};
   schema.put({"mix",
-              "amounts and properties of the mix, each under a name with its unit, as water_kg_m3; not simulated, but "
-              "in the table of many studies"},
+              "amounts and properties of the mix, each under a name with its unit, e.g. water_kg_m3; shown in the "
+              "table of many studies, not simulated"},
              std::move(mix), Need::optional);
   tell_grains(schema, Need::optional);
   Lab::Repeats any;
   schema.object({"repeats",
-                 "of tests of heaps: how many heaps were made and how many sheared off; a study that does not state "
-                 "`rejected_share` allows at least that share"},
+                 "for tests with a heap: how many heaps were made and how many sheared off; a study without "
+                 "`rejected_share` allows at least this share"},
                 Need::optional, [&](ObjectSchema& fields) { describe_repeats(fields, any); });
   tell_measurements(schema);
   object["if"]["not"]["properties"]["apparatus"]["required"].push_back("preset");
   object["then"]["required"].push_back("grains");
   return document_schema("pastefit laboratory file",
-                         "What a laboratory measured in a test of some kind. Limits that depend on the apparatus (no "
-                         "heap that is higher than its vessel) are checked by the program alone.",
+                         "Measurements of one laboratory test. Only the program checks limits that depend on the "
+                         "apparatus (no heap higher than its vessel).",
                          std::move(object), std::move(definitions));
 }
 

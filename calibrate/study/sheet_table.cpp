@@ -154,8 +154,8 @@ Faults misplaced_cells(const Layout& layout, const CsvLine& line) {
       faults.push_back({where, "has a quotation mark that closes in a later line, or nowhere", "close it in its cell"});
   for (std::size_t i = layout.columns.size(); i < line.cells.size() && faults.empty(); ++i)
     if (!is_missing(line.cells[i]))
-      faults.push_back({where, "has more cells than the head: " + in_quotes(line.cells[i]),
-                        "a head for each cell; decimal commas only where semicolons or tabs part the cells"});
+      faults.push_back({where, "has more cells than the header row: " + in_quotes(line.cells[i]),
+                        "give each column a header; decimal commas require semicolons or tabs between the cells"});
   return faults;
 }
 
@@ -202,9 +202,10 @@ SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& fa
   std::optional<Layout> layout = text ? layout_of(*text) : std::nullopt;
   SheetTable table;
   if (!layout) {
-    faults.push_back({"", "has no line that names a reading",
-                      "a table with a head, e.g. \"sample;mould;density (kg/m3);slump (mm);spread (mm)\"; save a "
-                      "workbook as CSV"});
+    faults.push_back(
+        {"", "has no line that names a reading",
+         "give a table with a header row, e.g. \"sample;mould;density (kg/m3);slump (mm);spread (mm)\"; save a "
+         "workbook as CSV"});
     return table;
   }
   take_units(*layout);
@@ -231,7 +232,8 @@ SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& fa
   if (table.rows.size() == most_samples)
     faults.push_back({"", "has " + std::to_string(most_samples) + " samples or more", "several tables"});
   for (Fault& fault : faults_of_names(table.rows)) faults.push_back(std::move(fault));
-  if (table.rows.empty()) faults.push_back({"", "has no row with a reading", "a row a sample, below the head"});
+  if (table.rows.empty())
+    faults.push_back({"", "has no row with a reading", "one row per sample below the header row"});
   return table;
 }
 

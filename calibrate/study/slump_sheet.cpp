@@ -26,18 +26,18 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr std::array<ShortReading, 12> shorts{{
-    {"slump", "step1.slump_mm", "what is missing to the mould's height"},
-    {"height", "step1.height_mm", "the height that is left"},
+    {"slump", "step1.slump_mm", "height of the mould minus that of the heap"},
+    {"height", "step1.height_mm", "height of the heap"},
     {"spread", "step1.spread_mm", "width of the heap"},
-    {"shift", "step1.lateral_shift_mm", "of the middle of the top"},
-    {"angle", "step1.angle_of_repose_deg", "of repose, of a dry material"},
-    {"height2", "step2.height_mm", "after the plate's drop"},
-    {"slump2", "step2.slump_mm", "after the plate's drop"},
-    {"spread2", "step2.spread_mm", "after the plate's drop"},
-    {"sag", "step2.plateau_sag_mm", "how much lower the top lies on the free side"},
-    {"flow", "after_drops.spread_mm", "width after all drops of the table"},
-    {"height-after", "after_drops.height_mm", "after all drops of the table"},
-    {"mass", "fill.mass_kg", "of the full mould's content"},
+    {"shift", "step1.lateral_shift_mm", "sideways shift of the top's centre"},
+    {"angle", "step1.angle_of_repose_deg", "angle of repose of a dry material"},
+    {"height2", "step2.height_mm", "height after the first drop"},
+    {"slump2", "step2.slump_mm", "slump after the first drop"},
+    {"spread2", "step2.spread_mm", "width after the first drop"},
+    {"sag", "step2.plateau_sag_mm", "height difference of the top, positive if the free side is lower"},
+    {"flow", "after_drops.spread_mm", "width of the heap after all drops"},
+    {"height-after", "after_drops.height_mm", "height after all drops"},
+    {"mass", "fill.mass_kg", "mass of the mould's content"},
 }};
 
 std::string_view key_of_reading(std::string_view name) {

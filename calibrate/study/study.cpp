@@ -45,9 +45,9 @@ void describe_choice(Fields& fields, ContactModel& laws) {
       laws.rolling, rolling_models, optional);
   fields.choice(
       {"friction_basis",
-       "what the friction limit is a share of: elastic, the repulsion alone, so that cohesion strengthens it; total, "
-       "the whole normal force, with the reserve that sticking grains have in LAMMPS (twice the largest pull); net, "
-       "the whole normal force alone, so that grains which only stick hold nothing; default elastic"},
+       "normal force in the friction limit: elastic, the repulsion alone, so that cohesion increases friction; total, "
+       "the whole normal force plus twice the largest attraction, as in LAMMPS; net, the whole normal force, so that "
+       "grains in equilibrium between attraction and repulsion have no friction; default elastic"},
       laws.friction_basis, friction_bases, optional);
 }
 
@@ -185,8 +185,8 @@ ObjectSchema::Json study_schema() {
   using Json = ObjectSchema::Json;
   Json object, definitions;
   ObjectSchema schema(object, definitions);
-  schema.constant({"format", "says what file it is, and in which version"}, "pastefit-study-1", Need::required);
-  schema.text({"title", "one line for people"}, "", Need::required);
+  schema.constant({"format", "kind of file and version of its format"}, "pastefit-study-1", Need::required);
+  schema.text({"title", "title, one line"}, "", Need::required);
   tell_tests(schema);
   ContactModel any;
   schema.object({"contact", "the contact laws (data/README.md)"}, Need::optional,
@@ -196,9 +196,9 @@ ObjectSchema::Json study_schema() {
   });
   parameters["minProperties"] = 1;
   schema.put({"parameters",
-              "each either {`value`: NUMBER}, fixed, or {`free`: [LOWER, UPPER], `scale`: \"linear\" or \"log\", "
-              "`prior`: {`value`, `standard_deviation`}}, fitted between these bounds; what is not named has its "
-              "default value; a prior is a normal distribution, of the logarithm on a log scale, with "
+              "each is either {`value`: NUMBER}, fixed, or {`free`: [LOWER, UPPER], `scale`: \"linear\" or \"log\", "
+              "`prior`: {`value`, `standard_deviation`}}, fitted between these bounds; a parameter that is not named "
+              "has its default value; a prior is a normal distribution, of the logarithm on a log scale, with "
               "standard_deviation/value as its standard deviation"},
              std::move(parameters), Need::required);
   tell_search_options(schema);
@@ -214,9 +214,9 @@ ObjectSchema::Json study_schema() {
   object["oneOf"].push_back(several);
   return document_schema(
       "pastefit study file",
-      "Which parameters are fitted to which measurements of one or several laboratory files, and how. That bounds are "
-      "in order, not the same within a millionth and no more than 1e12 apart on a log scale, at least one parameter is "
-      "free and the laws have the parameters that are named is checked by the program alone.",
+      "Which parameters are fitted to which measurements of one or several laboratory files, and how. Only the program "
+      "checks that bounds are in order, differ by more than a millionth, and by at most a factor of 1e12 on a log "
+      "scale; that at least one parameter is free; and that the laws use the named parameters.",
       std::move(object), std::move(definitions));
 }
 

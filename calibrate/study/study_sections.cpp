@@ -17,31 +17,32 @@ void describe_search_options(Fields& fields, SearchOptions& search) {
   constexpr int most = 1'000'000;
   fields.text({"strategy", "\"default\", or the name of an algorithm (calibrate/search/README.md)"}, search.strategy,
               Need::optional);
-  fields.integer({"screening", "candidates that are spread over the bounds to begin with; default 8"}, search.screening,
-                 0, most, Need::optional);
-  fields.integer({"budget_simulations", "simulations in all, confirmation and examination included; default 60"},
+  fields.integer({"screening", "candidates spread over the bounds before the search; default 8"}, search.screening, 0,
+                 most, Need::optional);
+  fields.integer({"budget_simulations", "simulations in total, including confirmation and examination; default 60"},
                  search.budget_simulations, 1, most, Need::optional);
-  fields.integer({"packings",
-                  "random packings that all candidates of an optimiser share, and those with coarse grains; default 2"},
-                 search.packings, 1, 1000, Need::optional);
-  fields.integer({"max_pending", "how many simulations may be under way when the next is chosen; default 0"},
-                 search.max_pending, 0, 1000, Need::optional);
   fields.integer(
-      {"confirmation_packings", "fresh packings on which the best candidate is judged, to begin with; default 4"},
-      search.confirmation_packings, 1, 1000, Need::optional);
+      {"packings", "random packings that all candidates of an optimiser share, and all coarse simulations; default 2"},
+      search.packings, 1, 1000, Need::optional);
+  fields.integer({"max_pending", "candidates that may be pending when the next one is chosen; default 0"},
+                 search.max_pending, 0, 1000, Need::optional);
+  fields.integer({"confirmation_packings", "fresh packings of the first decision on the best candidate; default 4"},
+                 search.confirmation_packings, 1, 1000, Need::optional);
   fields.number({"rejected_share",
-                 "of the heaps that a laboratory would reject because they sheared off, at most; 1: not judged; "
-                 "default 0.2, or the laboratory's own share (`repeats` of its file), if that is more"},
+                 "largest share of heaps that may shear off; 1: not judged; default 0.2, or the measured share "
+                 "(`repeats` of the laboratory file) if that is larger"},
                 search.rejected_share, {0, 1}, Need::optional);
-  fields.integer({"examination_simulations", "of the budget, for what else fits; default 12"},
+  fields.integer({"examination_simulations", "simulations of the budget for other materials that may fit; default 12"},
                  search.examination_simulations, 0, most, Need::optional);
   fields.nullable_number({"tolerance_mm",
-                          "of every length without a tolerance of its own; left out or null: the laboratory's "
-                          "deviation, of a heap half a grain's radius at least"},
+                          "tolerance of every length without an entry in `tolerances`; null or not given: the standard "
+                          "deviation of the measurement, for a heap at least half a grain radius"},
                          search.tolerance_mm, {1e-6, 1000}, Need::optional);
-  fields.flag({"coarse_first", "coarse grains propose, fine ones decide"}, search.coarse_first, Need::optional);
-  fields.flag({"end_early", "false: hopeless simulations run to their end, too"}, search.end_early, Need::optional);
-  fields.integer({"seed", "of the search and of its packings; default 1"}, search.seed, Need::optional);
+  fields.flag({"coarse_first", "true: candidates are first simulated with coarse grains"}, search.coarse_first,
+              Need::optional);
+  fields.flag({"end_early", "false: simulations far below the measured height are not stopped"}, search.end_early,
+              Need::optional);
+  fields.integer({"seed", "seed of the search and of its packings; default 1"}, search.seed, Need::optional);
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ void read_search_options(ObjectReader& document, int fitted_tests, SearchOptions
 
 void tell_search_options(ObjectSchema& study) {
   SearchOptions any;
-  study.object({"search", "how the search goes (calibrate/search/README.md)"}, Need::optional,
+  study.object({"search", "options of the search (calibrate/search/README.md)"}, Need::optional,
                [&](ObjectSchema& fields) { describe_search_options(fields, any); });
 }
 
@@ -131,7 +132,7 @@ void tell_parameter(ObjectSchema& parameters, const ParameterKind& kind) {
       prior.shared("prior");
       prior.number({"value", "mean, within the bounds"}, 0, Range{}, Need::required);
       prior.number({"standard_deviation",
-                    "how well it is known; from a millionth of the way between the bounds to a million times it"},
+                    "standard deviation of the prior; from a millionth to a million times the width of the bounds"},
                    0, {0, largest_quantity, true}, Need::required);
     });
   });

@@ -180,12 +180,12 @@ void tell_numbers(ObjectSchema& study, const Key& key, const Range& range) {
 void tell_tests(ObjectSchema& study) {
   using Json = ObjectSchema::Json;
   const Json lab{{"type", {"string", "object"}}};
-  study.put({"lab", "laboratory file of a study of one test, or what such a file says"}, lab, Need::optional);
+  study.put({"lab", "laboratory file of a study with one test, or its content"}, lab, Need::optional);
   const Json test = study.described([&](ObjectSchema& one) {
-    one.put({"name", "stands before the readings of the test in tables"},
+    one.put({"name", "prefix of the test's readings in tables"},
             {{"type", "string"}, {"pattern", "^[A-Za-z0-9._-]{1,40}$"}}, Need::required);
-    one.put({"lab", "its laboratory file, or what such a file says"}, lab, Need::required);
-    one.flag({"hold_out", "predicted and judged, not fitted"}, false, Need::optional);
+    one.put({"lab", "its laboratory file, or the content of one"}, lab, Need::required);
+    one.flag({"hold_out", "true: validation test, predicted and compared, not fitted"}, false, Need::optional);
     one.put({"weights", "as `weights`"}, {{"$ref", "#/properties/weights"}}, Need::optional);
     one.put({"tolerances", "as `tolerances`"}, {{"$ref", "#/properties/tolerances"}}, Need::optional);
   });
@@ -194,13 +194,12 @@ void tell_tests(ObjectSchema& study) {
   tell_numbers(
       study,
       {"weights",
-       "of each measured reading in the fit, by the names of `measurements`; 1 where it is not said, 0: shown, "
-       "not fitted"},
+       "weight of each measured reading in the fit, by the names of `measurements`; default 1; 0: shown, not fitted"},
       weights);
   tell_numbers(study,
                {"tolerances",
-                "how far off a fitted reading may be, in its unit, by the names of `measurements`; without one it is "
-                "tolerance_mm for a length, and one standard deviation of the laboratory for anything else"},
+                "largest accepted difference of a fitted reading, in its unit, by the names of `measurements`; "
+                "default: tolerance_mm for a length, and one standard deviation of the measurement otherwise"},
                tolerances);
 }
 

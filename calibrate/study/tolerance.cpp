@@ -62,8 +62,8 @@ std::string note_on_grain_count(const Test& test) {
   if (!is_bed(test) || count >= kFewGrains) return {};
   const double radius_mm = mm * specimen_of(test).grains.radius_m * std::cbrt(count / kFewGrains);
   return grains_in_words(test) + format(
-                                     " fill the apparatus, fewer than %g: heaps of so few scatter, and a wrong "
-                                     "material may meet the readings; take a mean radius of %.2g mm or less",
+                                     " fill the apparatus, fewer than %g: heaps of so few grains vary much, and a "
+                                     "wrong material may fit the readings; use a mean radius of %.2g mm or less",
                                      kFewGrains, radius_mm);
 }
 
@@ -84,7 +84,7 @@ std::vector<std::string> notes_on_tolerances(const Study& study) {
         format(", which is %.1f standard deviations (%s) of the ", reading.tolerance / deviation,
                plain(deviation, 2).c_str()) +
         (deviation < measured ? "published repeatability" : "laboratory") + ", with " + grains_in_words(test) +
-        ": a wrong material may meet it; give a smaller tolerance, or smaller grains if theirs is the limit");
+        ": a wrong material may fit; give a smaller tolerance, or smaller grains if their radius sets the tolerance");
   }
   return notes;
 }

@@ -42,13 +42,13 @@ def _arguments(words: Optional[List[str]]) -> argparse.Namespace:
     verb.add_argument("study", metavar="STUDY", help="study file")
     verb.add_argument("--out", metavar="DIR", required=True, help="folder for card, summary, page and all simulations")
     earlier = verb.add_mutually_exclusive_group()
-    earlier.add_argument("--resume", action="store_true", help="go on with what DIR holds")
-    earlier.add_argument("--force", action="store_true", help="replace what DIR holds")
+    earlier.add_argument("--resume", action="store_true", help="continue with the simulations stored in DIR")
+    earlier.add_argument("--force", action="store_true", help="replace the earlier result in DIR")
     verb.add_argument("--quiet", action="store_true", help="no progress")
-    verb.add_argument("--time", metavar="SECONDS", type=_seconds, default=0, help="end with the best so far after this time")
+    verb.add_argument("--time", metavar="SECONDS", type=_seconds, default=0, help="end after this time with the best material so far")
     where = verb.add_mutually_exclusive_group()
-    where.add_argument("--processes", metavar="N", type=_count, help="of this machine; one for each core if it is not given")
-    where.add_argument("--dask", metavar="ADDRESS", help="of a scheduler, tcp://host:8786, or its file")
+    where.add_argument("--processes", metavar="N", type=_count, help="processes of this machine; default: one per core")
+    where.add_argument("--dask", metavar="ADDRESS", help="address of a Dask scheduler, tcp://host:8786, or its file")
     return parser.parse_args(words)
 
 
@@ -88,7 +88,7 @@ def main(words: Optional[List[str]] = None) -> int:
         print(error, file=sys.stderr)
         return 2
     except KeyboardInterrupt:
-        print("interrupted: the best so far is written, and --resume goes on", file=sys.stderr)
+        print("interrupted: the best material so far is written, and --resume continues", file=sys.stderr)
         return 1
     print(result.summary, end="")
     return 0 if result.confirmed else 1

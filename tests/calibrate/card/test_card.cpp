@@ -87,8 +87,9 @@ TEST_CASE("a card keeps a measured yield stress, and holds what its readings say
   REQUIRE(read.ok());
   CHECK(with_yield_stresses(read.value()).dump() == document.dump());
   CHECK_FALSE(to_json(read.value())["tests"][0].contains("yield_stress_pa"));  // derived, not stored
-  CHECK_THAT(summary_of(material), Catch::Contains("by step1.height_mm: 2 times what was measured, +4 deviations") &&
-                                       Catch::Contains("by step1.spread_mm: "));
+  CHECK_THAT(summary_of(material),
+             Catch::Contains("by step1.height_mm: 2 times the measured one, +4 standard deviations") &&
+                 Catch::Contains("by step1.spread_mm: "));
 }
 
 TEST_CASE("a card states differences and standard errors") {
@@ -168,15 +169,15 @@ TEST_CASE("a card without its material, and another kind of file, are faults") {
 
 TEST_CASE("the verdict says whether the material meets the laboratory, and whether that was confirmed") {
   auto material = card();
-  CHECK_THAT(verdict_of(material), Catch::Contains("meets the laboratory") && Catch::Contains("1.30 mm"));
+  CHECK_THAT(verdict_of(material), Catch::Contains("reproduces the measurement") && Catch::Contains("1.30 mm"));
   material.confirmation.meets_laboratory = false;
-  CHECK_THAT(verdict_of(material), Catch::Contains("uncertain whether the material meets"));
+  CHECK_THAT(verdict_of(material), Catch::Contains("uncertain whether the material reproduces"));
   material.confirmation.refuted = true;  // e.g. all heaps shear off, however well they read
-  CHECK_THAT(verdict_of(material), Catch::Contains("Readings met; "));
+  CHECK_THAT(verdict_of(material), Catch::Contains("The readings are within their tolerances, but "));
   CHECK(card_from_json(text_and_back(to_json(material))).value().confirmation.refuted);
   material.confirmation.refuted = false;
   material.confirmation.error = 1.04;
-  CHECK_THAT(verdict_of(material), Catch::Contains("does not meet"));
+  CHECK_THAT(verdict_of(material), Catch::Contains("does not reproduce"));
   material.confirmation.fresh = false;
   CHECK_THAT(verdict_of(material), Catch::Contains("Not confirmed"));
   material.confirmation.packings.clear();  // carried over to other grains, and not simulated there
@@ -214,7 +215,7 @@ TEST_CASE("the summary counts the packings that sheared off, with the mean with 
   }
   CHECK_THAT(summary_of(material),
              Catch::Contains("1 of 3 heaps sheared off (95 % interval of the share: 1 to 91 %") &&
-                 Catch::Contains("the readings are of the others (height after step 1 with them: 98.0 mm)"));
+                 Catch::Contains("the means exclude these heaps (height after step 1 with them: 98.0 mm)"));
   runs.pop_back();
   CHECK_THAT(summary_of(material), !Catch::Contains("sheared"));
 }

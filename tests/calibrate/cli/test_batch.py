@@ -106,7 +106,7 @@ class Batch(Desk):
         output, errors = process.communicate(timeout=30)
         self.assertLess(time.monotonic() - start, 5)
         self.assertEqual(process.returncode, 1, errors)
-        self.assertIn("the same command goes on", errors)
+        self.assertIn("the same command continues", errors)
         self.assertEqual([row["verdict"] for row in self.table()][1:], ["stopped", "pending"], self.table())
         first = (self.out / "mix-00" / "card.json").stat().st_mtime_ns
         again = run("batch", *studies, "--out", self.out)

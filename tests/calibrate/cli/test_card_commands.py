@@ -128,7 +128,7 @@ class CardCommands(Desk):
         result = read([[x + 0.2 * z, *rest, z, r] for x, *rest, z, r in heap])
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("the heap sheared off", result.stdout)
-        self.assertIn("It is not the card's heap", result.stdout)
+        self.assertIn("The heap sheared off, so it is not compared", result.stdout)
         self.fails(read([[*at, 1.5 * r] for *at, r in heap]), 2, "1 error", "the heap of step 1", "about 1.5 times")
         self.fails(read(heap, 100), 2, "1 error", "the heap of step 1", "about 99 times")
         self.fails(read([[x, y, z + 1, r] for x, y, z, r in heap]), 2, "the heap of step 1", "mm above the table")
@@ -140,7 +140,7 @@ class CardCommands(Desk):
         for packings in (3, 2):
             card = self.sheared(packings)
             words = f"mean +- standard deviation of {packings} of the card's 8 packings"
-            for target, of in (("lammps", "The heap to expect"), ("liggghts", "The card's heap, which this law does not leave")):
+            for target, of in (("lammps", "The heap to expect"), ("liggghts", "The card's heap, which this law does not reproduce")):
                 out = self.folder / f"{target}{packings}"
                 result = run("export", card, "--to", target, "--out", out, "--unconfirmed")
                 for text in (result.stdout, (out / "NOTES.txt").read_text()):
@@ -241,9 +241,9 @@ class CardCommands(Desk):
 
     def test_the_verdict_names_the_cause_and_what_to_try(self):
         text = " ".join(run("show", self.sheared()).stdout.split())
-        self.assertIn("Readings met; 5 of 8 heaps sheared off, 1 in 5 allowed: largest error 1.25 mm of the 5 mm allowed", text)
+        self.assertIn("The readings are within their tolerances, but 5 of 8 heaps sheared off, 1 in 5 allowed: largest error 1.25 mm of the 5 mm allowed", text)
         self.assertIn("What to try now: ", text)
-        self.assertNotIn("does not meet the laboratory", text)
+        self.assertNotIn("does not reproduce the measurement", text)
 
     def test_doctor_says_of_each_property_whether_it_is_fine_and_which_page_explains_it(self):
         result = run("doctor", SHIPPED, "--json")

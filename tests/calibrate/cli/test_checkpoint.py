@@ -55,7 +55,7 @@ class Checkpoint(Desk):
                 result = self.stopped(after_s, "--out", self.out)
             if result.returncode == 0:
                 return sessions, result
-            self.fails(result, 1, "the same command goes on from " + str(self.file))
+            self.fails(result, 1, "the same command continues from " + str(self.file))
             self.assertEqual(result.stdout, "")
             self.assertTrue(self.file.exists())
             self.assertFalse((self.out / "outcome.json").exists())
@@ -77,7 +77,7 @@ class Checkpoint(Desk):
             if sessions > 1:
                 break
         self.assertGreater(sessions, 1)
-        self.assertIn("goes on from " + str(self.file), result.stderr)
+        self.assertIn("continues from " + str(self.file), result.stderr)
         self.assertEqual(self.answer(result), whole)
         self.assertEqual(json.loads((self.out / "outcome.json").read_text())["observables"], whole["observables"])
         self.assertFalse(self.file.exists())

@@ -138,7 +138,7 @@ class CommandLine(Desk):
         study = self.study()
         plan = run("calibrate", study, "--dry-run")
         self.assertEqual((plan.returncode, plan.stderr), (0, ""))
-        for word in ("To be met", "step1.height_mm", "simulations of about", f"Results go to {study.with_suffix('')}"):
+        for word in ("Fitted readings", "step1.height_mm", "simulations of about", f"Results go to {study.with_suffix('')}"):
             self.assertIn(word, plan.stdout)
         self.assertEqual(sorted(os.listdir(self.folder)), ["lab.json", "study.json"])
         self.fails(run("calibrate", self.folder / "nothing.json", "--dry-run"), 2, "nothing.json")
@@ -340,7 +340,7 @@ class CommandLine(Desk):
     def test_the_summary_says_what_the_data_determine_and_the_card_keeps_it(self):
         result = self.calibrates(self.study(budget=16, screening=6))
         self.assertIn("5 parameters are free, and 1 fitted reading fixes at most 1 combination", result.stderr)
-        for words in ("What the readings say", "What to measure next", "Materials expected to fit these readings"):
+        for words in ("What the readings determine", "What to measure next", "Materials expected to fit these readings"):
             self.assertIn(words, (self.out / "summary.txt").read_text())
         card = json.loads((self.out / "card.json").read_text())
         named = set(card.get("not_identified", {})) | set(card.get("intervals", {}).get("parameters", {}))
@@ -357,7 +357,7 @@ class CommandLine(Desk):
         kept = {file: (self.out / file).read_bytes() for file in files}
         result = run("infer", study, "--from", self.out)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("What the readings say", result.stdout)
+        self.assertIn("What the readings determine", result.stdout)
         self.fails(run("infer", study, "--from", self.out, "--out", self.out), 2, "earlier result", "--force")
         self.assertEqual({file: (self.out / file).read_bytes() for file in files}, kept)
 

@@ -279,7 +279,7 @@ class HostileInput(Desk):
         self.assertIn("screening", errors)
         self.assertNotIn("confirmation", errors)
         self.assertEqual(json.loads((self.out / "card.json").read_text())["search"]["status"], "stopped")
-        self.assertIn("the best so far", output)
+        self.assertIn("this is the best material so far", output)
 
     def test_an_interrupt_before_the_first_simulation_is_through_says_that_resume_goes_on(self):
         study = self.small_study(budget_simulations=400, screening=60)
@@ -290,7 +290,7 @@ class HostileInput(Desk):
         said = [line for line in errors.splitlines() if line.startswith("pastefit: ")]
         self.assertEqual(len(said), 1, errors)
         self.assertIn("no material to report: The search was stopped before a simulation had all its readings; --resume "
-                      "goes on", said[0])
+                      "continues", said[0])
         self.assertFalse((self.out / "card.json").exists())
 
     def test_an_output_folder_that_goes_away_is_seen_at_once(self):
@@ -325,7 +325,7 @@ class HostileInput(Desk):
                      self.out)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         verdict = " ".join((self.out / "summary.txt").read_text().split())  # as lines are broken
-        self.assertIn("The material meets the laboratory", verdict)
+        self.assertIn("The material reproduces the measurement", verdict)
         self.assertRegex(verdict, r"step1\.spread_mm was not fitted and is [0-9.]+ mm off, [0-9.]+ standard deviations\.$")
 
     def test_an_unconfirmed_material_is_written_and_ends_in_status_1(self):

@@ -243,7 +243,7 @@ class New(Desk):
         self.assertEqual(study["contact"]["attraction"], "none")
         self.assertEqual([name for name, one in study["parameters"].items() if "free" in one],
                          ["friction", "rolling_friction"])
-        self.assertIn("Many pairs of sliding and rolling friction give one angle", said)
+        self.assertIn("Many pairs of sliding and rolling friction give the same angle", said)
 
     def test_a_yield_stress_alone_predicts_the_reading_that_is_fitted_and_the_file_says_so(self):
         lab, study, said = self.files("--mould", "abrams", "--density", "1850", "--yield-stress", "0.61, 0.59, 0.6 kPa")

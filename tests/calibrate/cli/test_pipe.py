@@ -126,7 +126,7 @@ class Pipe(Desk):
             self.assertIn(material, files)
             self.assertIn(material.split(".")[0], (out / "deck" / target / script).read_text())
             self.assertEqual("in.slump" in files or "slump.py" in files, is_slump(kind))
-            self.assertIn("contact laws is lost" if kind == "drop" and target != "lammps" else "What is lost or changed", text)
+            self.assertIn("contact laws are exported" if kind == "drop" and target != "lammps" else "What is lost or changed", text)
             if is_slump(kind) or not shutil.which(command[0]):
                 continue
             run_of_deck = subprocess.run([*command, script], cwd=out / "deck" / target, capture_output=True, text=True,

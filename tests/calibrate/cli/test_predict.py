@@ -30,7 +30,7 @@ class Predict(Desk):
                 self.assertGreaterEqual(row["upper"], max(row["of_materials"]))
         self.assertNotIn("step1.slump_mm", found["readings"])  # the height in another form
         result = run("predict", self.out, "--lab", self.folder / "lab.json", "--packings", "2", "--quiet")
-        self.assertEqual(result.returncode, 1 if "x: measured outside" in result.stdout else 0, result.stdout + result.stderr)
+        self.assertEqual(result.returncode, 1 if "x: the measured value lies outside" in result.stdout else 0, result.stdout + result.stderr)
         self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80)
         self.assertRegex(result.stdout, r"step1.height_mm .* 150\b")
         self.fails(run("predict", self.folder, "--preset", "hinged-plate"), 2, "neither card.json nor evaluations.sqlite")

@@ -293,7 +293,7 @@ class Sheets(Desk):
                       "step1.height_mm          140 within 7.5 mm", "4 simulations of about",
                       "Free without a reading of the spread: friction"):
             self.assertIn(words, said)
-        self.assertLess(said.index("To be met"), said.index("wrote"))
+        self.assertLess(said.index("Fitted readings"), said.index("wrote"))
 
 
 if __name__ == "__main__":

@@ -244,8 +244,8 @@ TEST_CASE("what Yade's friction of grains that stick has otherwise is said with 
     const double pull = 2 * std::numbers::pi * material.contact.surface_energy_j_m2 * material.grains.radius_m;
     const double held = basis == FrictionBasis::total ? 2 * material.contact.friction * pull : 0;
     char text[80];
-    std::snprintf(text, sizeof text, "holds %.3g N in Yade, %.3g N on the card", material.contact.friction * pull,
-                  held);
+    std::snprintf(text, sizeof text, "with up to %.3g N in Yade and %.3g N with the card's law",
+                  material.contact.friction * pull, held);
     CHECK_THAT(text_of(written.value()), Catch::Contains(text));
   }
 }

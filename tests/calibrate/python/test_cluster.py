@@ -28,7 +28,7 @@ class Cluster(Desk):
     def test_two_processes_make_the_programs_card(self):
         made, out = self.calibrated("processes", sys.executable, options=("--processes", "2"))
         self.assertEqual(made.returncode, 0, made.stderr)
-        self.assertIn("The material meets the laboratory", made.stdout)
+        self.assertIn("The material reproduces the measurement", made.stdout)
         self.assertEqual((out / "card.json").read_bytes(), self.card_of_the_program())
 
     @unittest.skipUnless(importlib.util.find_spec("mpi4py") and shutil.which("mpiexec"), "there is no MPI")

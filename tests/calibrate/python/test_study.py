@@ -62,7 +62,7 @@ class Card(Desk):
         self.assertTrue(card.meets_laboratory)
         self.assertIn("friction", card.parameters)
         self.assertEqual(list(card.readings["name"]), ["step1.height_mm", "step1.spread_mm"])
-        self.assertIn("meets the laboratory", card.verdict)
+        self.assertIn("reproduces the measurement", card.verdict)
 
     def test_a_saved_card_is_the_same_card(self):
         card = pf.Card.load(CARD)

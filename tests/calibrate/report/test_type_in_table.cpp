@@ -120,7 +120,7 @@ TEST_CASE("heaps that sheared off, a parameter at its bound and a marginal readi
   CHECK_THAT(reservations[0], Catch::Contains("1 of " + heaps + " heaps sheared off"));
   CHECK_THAT(reservations[1], Catch::Contains("step1.height_mm is off by") && Catch::Contains("of the 7.5 allowed"));
   CHECK_THAT(reservations[2], Catch::Contains("strength_pa") && Catch::Contains("lower bound"));
-  CHECK_THAT(verdict_of(card), Catch::Contains("meets the laboratory, with reservations"));
+  CHECK_THAT(verdict_of(card), Catch::Contains("reproduces the measurement, with reservations"));
   const std::string summary = summary_of(card);
   for (const std::string& one : reservations)
     CHECK_THAT(summary, Catch::Contains(wrapped("Reservation: " + one + ".")));

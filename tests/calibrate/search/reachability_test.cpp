@@ -138,7 +138,7 @@ TEST_CASE("a search that would be in vain ends after the screening, and says so"
         objective, options, [&](const Progress& progress) { told += progress.note; }, reading, parameters);
     CHECK(calibration.status == CalibrationStatus::out_of_reach);
     CHECK_FALSE(told.empty());
-    if (calibration.reason.find("not begun") == std::string::npos) continue;
+    if (calibration.reason.find("not started") == std::string::npos) continue;
     ++ended;
     CHECK(objective.simulations <= 30);
     CHECK(calibration.confirmation.packings.size() == 4);
@@ -226,7 +226,7 @@ TEST_CASE("a claim that a later simulation contradicts is withdrawn, and the sea
     CHECK(calibration.reason.find("out of reach") == std::string::npos);
     if (told.find("is out of reach") == std::string::npos) continue;
     ++withdrawn;
-    CHECK_THAT(told, Catch::Contains("the search goes on"));
+    CHECK_THAT(told, Catch::Contains("the search continues"));
     CHECK(calibration.simulations > 24);  // a claim that stands takes 18 to 22
   }
   CHECK(withdrawn >= 5);

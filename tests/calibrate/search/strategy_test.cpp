@@ -317,7 +317,7 @@ TEST_CASE("a stop in the middle of the screening gives the best of what had fini
     const Calibration calibration = search(objective, options_with(192));
     CHECK(calibration.status == CalibrationStatus::stopped);
     CHECK((calibration.best.point.size() > 0) == (finished > 0));
-    CHECK((calibration.reason.find("--resume goes on") != std::string::npos) == (finished == 0));
+    CHECK((calibration.reason.find("--resume continues") != std::string::npos) == (finished == 0));
     if (finished == 0) continue;
     CHECK(is_feasible(calibration.best));
     double least = objective.answered.front().misfit;

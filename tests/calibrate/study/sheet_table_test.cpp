@@ -155,7 +155,7 @@ TEST_CASE("what may be misread in silence is an error with its line or head") {
     CHECK_THAT(message_for(text), Catch::Contains(words));
   };
   refused("no;slump\n1;\"180\n2;170\n3;160\"\n4;150\n", "line 2: has a quotation mark that closes in a later line");
-  refused("sample,slump,spread\nA,17,5,330\n", "line 2: has more cells than the head: \"330\"");
+  refused("sample,slump,spread\nA,17,5,330\n", "line 2: has more cells than the header row: \"330\"");
   refused("height,spread,height2,spread 2\n120,330,100,350\n", "may be a repeat, or the reading after the drop");
   refused("slump 5;slump 30;slump 60\n180;175;165\n", "numbers do not count repeats");
   refused("slump;slump 1;slump 2\n175;180;170\n", "numbers do not count repeats");

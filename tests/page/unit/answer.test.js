@@ -102,7 +102,10 @@ test("heaps that a laboratory would reject are named in the heading, where every
   const unconfirmed = "6 of 8 heaps sheared off, 1 in 5 allowed";
   const verdict = verdictWith({ misfit: 0.4, refuted: true, only_heaps_refute: true, unconfirmed });
   const { kind, sign, heading } = answerOf(contentWith({ verdict }));
-  assert.deepEqual([kind, sign, heading], ["rejected", "!", `Readings met; ${unconfirmed}`]);
+  assert.deepEqual(
+    [kind, sign, heading],
+    ["rejected", "!", `The readings are within their tolerances, but ${unconfirmed}`],
+  );
 });
 
 test("the sentence of an answer does not repeat its heading", () => {

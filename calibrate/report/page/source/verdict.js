@@ -11,11 +11,11 @@ import { isMeasured } from "./readings.js";
 /** @typedef {import("./content.js").Test} Test */
 
 const answers = {
-  meets: ["\u2713", "The material meets the laboratory"],
-  reserved: ["!", "The material meets the laboratory, with reservations"],
+  meets: ["\u2713", "The material reproduces the measurement"],
+  reserved: ["!", "The material reproduces the measurement, with reservations"],
   open: ["?", "Not certain"],
-  rejected: ["!", "Readings met"],
-  fails: ["\u2717", "The material does not meet the laboratory"],
+  rejected: ["!", "The readings are within their tolerances"],
+  fails: ["\u2717", "The material does not reproduce the measurement"],
   none: ["\u2026", "No answer yet"],
   goes: ["\u2026", "The calibration is under way"],
 };
@@ -123,7 +123,7 @@ export function answerLines({ verdict, parameters = [], tests = [], interval_lev
 export function answerOf(content) {
   const kind = verdictKind(content);
   const [sign, usual] = answers[kind];
-  const heading = kind === "rejected" ? `${usual}; ${content.verdict?.unconfirmed}` : usual;
+  const heading = kind === "rejected" ? `${usual}, but ${content.verdict?.unconfirmed}` : usual;
   const waiting =
     kind === "goes" ? "This page looks again every ten seconds." : "Below is what the folder holds so far.";
   const said = content.verdict?.words ?? waiting;
