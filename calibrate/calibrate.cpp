@@ -36,18 +36,6 @@ Faults coarse_faults(const Study& study) {
   return {};
 }
 
-PoolOptions pool_of(const CalibrateOptions& options, const CalibrateCallbacks& callbacks) {
-  PoolOptions pool;
-  pool.threads = options.threads;
-  pool.wall_budget_s = options.wall_budget_s;
-  pool.core_budget_s = options.core_budget_s;
-  pool.stop = options.stop;
-  pool.pulse = callbacks.pulse;
-  pool.run_observer = callbacks.run_observer;
-  pool.engine = options.engine;
-  return pool;
-}
-
 /// Simulations that a pool runs for a calibrator.
 class UnderWay {
  public:
@@ -79,20 +67,20 @@ class UnderWay {
 
 }  // namespace
 
-Faults validate(const Study& study, const CalibrateOptions& options) {
+Faults validate(const Study& study, int threads) {
   const auto fitted = static_cast<int>(tests_of(study, false).size());
   if (auto faults = validate(options_of_the_search(study), free_count(study), fitted); !faults.empty()) return faults;
   if (auto faults = validate_residuals(study); !faults.empty()) return faults;
-  if (auto faults = validate_memory(study, options.threads); !faults.empty()) return faults;
+  if (auto faults = validate_memory(study, threads); !faults.empty()) return faults;
   return study.search.coarse_first ? coarse_faults(study) : Faults{};
 }
 
-Result<CalibrationResult> calibrate(const Study& study, Store& store, const CalibrateOptions& options,
-                                    const CalibrateCallbacks& callbacks) {
-  if (auto faults = validate(study, options); !faults.empty()) return faults;
-  StudyAnswers answers(std::shared_ptr<const Study>(std::shared_ptr<void>(), &study), store, options.study_file);
+Result<CalibrationResult> calibrate(const Study& study, Store& store, const PoolOptions& options,
+                                    const CalibrateCallbacks& callbacks, const std::string& study_file) {
+  if (auto faults = validate(study, options.threads); !faults.empty()) return faults;
+  StudyAnswers answers(std::shared_ptr<const Study>(std::shared_ptr<void>(), &study), store, study_file);
   Calibrator calibrator(answers, callbacks.progress);
-  SimulationPool pool(store, pool_of(options, callbacks));
+  SimulationPool pool(store, options);
   UnderWay under_way(pool, study);
   while (!calibrator.finished()) {
     if (pool.stop_requested()) calibrator.stop(!options.stop || !*options.stop);

@@ -10,7 +10,6 @@
 #include "calibrate/answers.h"
 #include "calibrate/card/card.h"
 #include "calibrate/evaluate/simulation.h"
-#include "calibrate/inference/condition_effects.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/inference/inference.h"
 #include "calibrate/search/search.h"

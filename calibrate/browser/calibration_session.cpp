@@ -42,7 +42,7 @@ Study requested_study(const json& request) {
     study.search.seed = seed->get<std::uint64_t>();
   if (const auto budget = request.find("budget"); budget != request.end() && !budget->is_null())
     study.search.budget_simulations = budget->get<int>();
-  refuse(in_file(validate(study, {.study_file = kStudyFile, .threads = 1}), kStudyFile));
+  refuse(in_file(validate(study, 1), kStudyFile));
   return study;
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "calibrate/calibrator.h"
-#include "calibrate/evaluate/task.h"
+#include "calibrate/evaluate/simulation.h"
 #include "calibrate/store/store.h"
 
 namespace pastefit::browser {

@@ -10,7 +10,7 @@
 
 #include "calibrate/base/refusal.h"
 #include "calibrate/browser/calibration_session.h"
-#include "calibrate/evaluate/task.h"
+#include "calibrate/evaluate/simulation.h"
 
 namespace pastefit::browser {
 

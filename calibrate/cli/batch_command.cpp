@@ -45,10 +45,9 @@ const std::string kArrayScript = "batch.sbatch", kTableScript = "batch-table.sba
 Faults unfit_studies(const std::vector<BatchStudy>& batch, const BatchArguments& options) {
   Faults faults;
   for (const BatchStudy& one : batch) {
-    CalibrateOptions how;
-    how.threads = options.slurm ? 1 : options.workers;  // memory is that of this machine, not of the cluster
+    const int threads = options.slurm ? 1 : options.workers;  // memory is that of this machine, not of the cluster
     const bool asked_for = options.force || is_finished(one);
-    Faults found = in_file(validate(one.study, how), one.file);
+    Faults found = in_file(validate(one.study, threads), one.file);
     if (found.empty())
       found = long_run_faults(one.file.string() + ": search.budget_simulations",
                               format("%d simulations", one.study.search.budget_simulations), least_effort_s(one.study),

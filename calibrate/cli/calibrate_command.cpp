@@ -114,8 +114,8 @@ Study study_to_calibrate(const CalibrateArguments& options) {
 }
 
 /// Reasons why the study cannot be calibrated; those of an overridden value name the option.
-Faults faults_of(const Study& study, const CalibrateOptions& how, const CalibrateArguments& options) {
-  auto faults = in_file(validate(study, how), options.study);
+Faults faults_of(const Study& study, const CalibrateArguments& options) {
+  auto faults = in_file(validate(study, options.threads), options.study);
   for (Fault& fault : faults)
     if (options.budget > 0 && fault.where.ends_with("search.budget_simulations")) fault.where = "--budget";
   return faults;
@@ -150,8 +150,7 @@ int run_seeds(const Study& study, const CalibrateArguments& options) {
 
 int run_calibrate(const CalibrateArguments& options) {
   const Study study = study_to_calibrate(options);
-  CalibrateOptions how{options.study, options.threads, options.wall_budget_s, options.core_budget_s, nullptr};
-  refuse(faults_of(study, how, options));
+  refuse(faults_of(study, options));
   refuse(too_long_faults(study, options));
   if (options.dry_run) {
     print("%s\n%s%sResults go to %s.\n", one_line(study.title).c_str(), understood(study, options.threads).c_str(),
@@ -161,7 +160,6 @@ int run_calibrate(const CalibrateArguments& options) {
 
   if (options.seeds > 1) return run_seeds(study, options);
   const std::atomic<bool>& stop = listen_for_stop();
-  how.stop = &stop;
   const OutputFolder folder =
       value_or_throw(open_calibration_folder(options.out, study, options.resume, options.force));
   const std::string file = folder.file(kStore);
@@ -177,7 +175,14 @@ int run_calibrate(const CalibrateArguments& options) {
     if (progress.phase != "examination") page.show(study, store);
   };
   const auto count = [&](const EvaluationCounts& counts) { line.show(counts); };
-  auto calibrated = calibrate(study, store, how, {show, count, [&] { line.look(); }, &looks});
+  PoolOptions pool;
+  pool.threads = options.threads;
+  pool.wall_budget_s = options.wall_budget_s;
+  pool.core_budget_s = options.core_budget_s;
+  pool.stop = &stop;
+  pool.pulse = [&] { line.look(); };
+  pool.run_observer = &looks;
+  auto calibrated = calibrate(study, store, pool, {show, count}, options.study);
   line.end();
   const auto result = value_or_throw(std::move(calibrated), kFailed);
   return result.card ? deliver_material(result, store, folder, options, stop, looks)

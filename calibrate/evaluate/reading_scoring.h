@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "calibrate/evaluate/scoring.h"
+#include "calibrate/evaluate/response.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"

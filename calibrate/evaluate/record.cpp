@@ -8,7 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "calibrate/evaluate/early_end.h"
+#include "calibrate/evaluate/simulation.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/evaluate/scoring.h"
+#include "calibrate/evaluate/response.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/study.h"
 

@@ -36,7 +36,7 @@ struct PoolOptions {
 /// Simulations of a study with the same `preparation_key` share a prepared packing. Requirement: `store` outlives the
 /// pool.
 ///
-/// A simulation that may end early (`early_end.h`) and does is stored under its own key, so that it never replaces a
+/// A simulation that may end early and does is stored under its own key, so that it never replaces a
 /// complete run. It keeps no energy balance; if it runs to its end, it has the same readings as one with an energy
 /// balance and replaces it on the same packing. Confirmations use packings on which nothing was tried out.
 ///

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "calibrate/base/text.h"
-#include "calibrate/evaluate/early_end.h"
 #include "calibrate/evaluate/record.h"
 #include "calibrate/evaluate/response.h"
+#include "calibrate/evaluate/simulation.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/evaluate/scoring.h"
+#include "calibrate/evaluate/response.h"
 #include "calibrate/inference/response_model.h"
 
 namespace pastefit {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "calibrate/base/statistics.h"
-#include "calibrate/evaluate/early_end.h"
 #include "calibrate/evaluate/record.h"
+#include "calibrate/evaluate/simulation.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {

@@ -40,10 +40,12 @@ class CalibrationRun {
   CalibrationRun(std::shared_ptr<Study> study, CalibrationOptions options, std::shared_ptr<Stop> stop,
                  const std::optional<std::pair<py::function, std::string>>& engine)
       : study_(std::move(study)), options_(std::move(options)), stop_(std::move(stop)) {
-    how_ = {options_.study_file, options_.threads, options_.wall_budget_s, 0, &stop_->asked};
-    if (engine) how_.engine = engine_of(engine->first, engine->second);
+    pool_.threads = options_.threads;
+    pool_.wall_budget_s = options_.wall_budget_s;
+    pool_.stop = &stop_->asked;
+    if (engine) pool_.engine = engine_of(engine->first, engine->second);
     elsewhere_ = engine.has_value();
-    refuse(in_file(validate(*study_, how_), options_.study_file));
+    refuse(in_file(validate(*study_, options_.threads), options_.study_file));
     folder_ = std::make_unique<OutputFolder>(
         value_or_throw(open_calibration_folder(options_.out, *study_, options_.resume, options_.force)));
     const std::string file = folder_->file(kStore);
@@ -64,8 +66,8 @@ class CalibrationRun {
       progress_.simulations = counts.simulated + counts.answered;
       progress_.best_error = counts.best_error;
     };
-    if (options_.page && !elsewhere_) callbacks.run_observer = &looks;
-    result_ = value_or_throw(calibrate(*study_, *store_, how_, callbacks));
+    if (options_.page && !elsewhere_) pool_.run_observer = &looks;
+    result_ = value_or_throw(calibrate(*study_, *store_, pool_, callbacks, options_.study_file));
     callbacks.evaluated(result_.counts);
     write(elsewhere_ ? nullptr : &looks);
   }
@@ -102,7 +104,7 @@ class CalibrationRun {
   const std::shared_ptr<Study> study_;
   const CalibrationOptions options_;
   const std::shared_ptr<Stop> stop_;
-  CalibrateOptions how_;
+  PoolOptions pool_;
   bool elsewhere_ = false;  // simulations run on an executor
   std::unique_ptr<OutputFolder> folder_;
   std::unique_ptr<Store> store_;

@@ -1,5 +1,3 @@
-#include "calibrate/python/custom_problem.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +9,8 @@
 #include "calibrate/base/refusal.h"
 #include "calibrate/base/statistics.h"
 #include "calibrate/base/text.h"
+#include "calibrate/evaluate/reading_scoring.h"
+#include "calibrate/python/asked_search.h"
 #include "calibrate/python/module.h"
 #include "calibrate/search/strategies.h"
 #include "calibrate/study/parameters.h"

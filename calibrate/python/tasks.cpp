@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "calibrate/evaluate/task.h"
+#include "calibrate/evaluate/simulation.h"
 #include "calibrate/python/module.h"
 #include "core/apparatus/slump/packing.h"
 

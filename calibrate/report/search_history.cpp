@@ -5,8 +5,8 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
-#include "calibrate/evaluate/early_end.h"
 #include "calibrate/evaluate/record.h"
+#include "calibrate/evaluate/simulation.h"
 #include "calibrate/inference/response_model.h"
 #include "calibrate/report/page_content.h"
 #include "calibrate/store/outcome_json.h"

@@ -16,11 +16,6 @@ Evaluation not_simulated(const Candidate& candidate) {
 
 }  // namespace
 
-CandidateQueue::CandidateQueue(const Scoring& scoring, int simulations, std::span<const CandidateResult> known)
-    : scoring_(scoring), simulations_(simulations) {
-  for (const CandidateResult& one : known) known_.emplace(one.candidate, one.evaluation);
-}
-
 std::size_t CandidateQueue::ask(const UnitPoint& point, std::uint64_t packing, Fidelity fidelity, bool may_end_early) {
   const std::vector<double> place(point.begin(), point.end());
   // A run that could have ended early but did not equals a complete run.
@@ -32,12 +27,7 @@ std::size_t CandidateQueue::ask(const UnitPoint& point, std::uint64_t packing, F
   const std::size_t number = asked_.size();
   numbers_[{place, packing, fidelity, may_end_early}] = number;
   asked_.push_back({{number, point, packing, fidelity, may_end_early, purpose_}, {}, false, false});
-  if (const auto told = known_.find(number); told != known_.end()) {
-    accept({number, told->second});
-    known_.erase(told);
-  } else {
-    open_.push_back(number);
-  }
+  open_.push_back(number);
   return number;
 }
 
@@ -88,14 +78,6 @@ std::vector<Candidate> CandidateQueue::suggest(std::size_t count) {
 
 void CandidateQueue::ingest(std::span<const CandidateResult> results) {
   for (const CandidateResult& result : results) accept(result);
-}
-
-std::vector<CandidateResult> CandidateQueue::results() const {
-  std::vector<CandidateResult> results;
-  for (const Asked& asked : asked_)
-    if (asked.answered) results.push_back({asked.candidate.number, asked.answer});
-  for (const auto& [number, evaluation] : known_) results.push_back({number, evaluation});
-  return results;
 }
 
 }  // namespace pastefit

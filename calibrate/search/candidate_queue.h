@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "calibrate/evaluate/scoring.h"
+#include "calibrate/evaluate/response.h"
 
 namespace pastefit {
 
@@ -35,13 +35,13 @@ struct CandidateResult {
   Evaluation evaluation;
 };
 
-/// Queue between the phases of a search and the evaluator. Each candidate is asked once. A phase gets its answers only
-/// after all of them have arrived, so that the search depends on the answers and the order of asking, not on their
+/// Queue between the phases of a search and whoever simulates. Each candidate is asked once. A phase gets its answers
+/// only after all of them have arrived, so that the search depends on the answers and the order of asking, not on their
 /// timing. No call blocks.
 class CandidateQueue {
  public:
-  /// `simulations`: total allowed. `known`: answers of an earlier search with the same queue.
-  CandidateQueue(const Scoring& scoring, int simulations, std::span<const CandidateResult> known);
+  /// `simulations`: total allowed.
+  CandidateQueue(const Scoring& scoring, int simulations) : scoring_(scoring), simulations_(simulations) {}
 
   // For the phases.
   const Scoring& scoring() const { return scoring_; }
@@ -58,11 +58,10 @@ class CandidateQueue {
   /// Their answers, which count as spent from now on. Requirement: `is_answered`.
   std::vector<Evaluation> answers(std::span<const std::size_t> numbers);
 
-  // For the evaluator; see `Search`.
+  // For whoever simulates; see `Search`.
   std::vector<Candidate> suggest(std::size_t count);
   void ingest(std::span<const CandidateResult> results);
   void stop() { stopped_ = true; }
-  std::vector<CandidateResult> results() const;
 
  private:
   struct Asked {
@@ -82,8 +81,7 @@ class CandidateQueue {
   std::string purpose_;
   std::deque<Asked> asked_;
   std::map<Key, std::size_t> numbers_;
-  std::map<std::size_t, Evaluation> known_;  // answers to candidates not yet asked
-  std::deque<std::size_t> open_;             // asked, not yet suggested
+  std::deque<std::size_t> open_;  // asked, not yet suggested
   bool stopped_ = false;
 };
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "calibrate/evaluate/scoring.h"
+#include "calibrate/evaluate/response.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {

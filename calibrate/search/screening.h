@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "calibrate/evaluate/scoring.h"
+#include "calibrate/evaluate/response.h"
 #include "calibrate/search/strategy_state.h"
 
 namespace pastefit {

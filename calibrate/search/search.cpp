@@ -12,7 +12,7 @@ struct Search::Run {
       : options(asked),
         start(std::move(from)),
         progress(std::move(told)),
-        queue(scoring, start.simulations, start.answers),
+        queue(scoring, start.simulations),
         strategy(queue, options, start, progress) {}
 
   const SearchOptions options;
@@ -48,10 +48,6 @@ void Search::stop() {
 
 bool Search::finished() const {
   return run_->strategy.finished();
-}
-
-std::vector<CandidateResult> Search::results() const {
-  return run_->queue.results();
 }
 
 const Calibration& Search::result() const {

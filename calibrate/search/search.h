@@ -24,9 +24,9 @@ namespace pastefit {
 /// Requirements: `validate(options, scoring.parameters(), scoring.simulations_each())` is empty; `scoring` outlives the
 /// search; one caller at a time. The suggestions depend on the answers in the order of asking and on
 /// `SearchOptions::max_pending`, not on which answer arrives first: the card is the same for any number of workers. The
-/// state of a search is its answers (`results`): one that starts with them takes the same path without asking again.
-/// `strategy.h` describes the phases. No call blocks, and no thread is started; `suggest`, `ingest` and `stop` advance
-/// the search and call `progress`. Errors: std::logic_error if a requirement is broken or an answer was not suggested.
+/// state of a search is its answers: one that gets the same answers takes the same path. `strategy.h` describes the
+/// phases. No call blocks, and no thread is started; `suggest`, `ingest` and `stop` advance the search and call
+/// `progress`. Errors: std::logic_error if a requirement is broken or an answer was not suggested.
 class Search {
  public:
   Search(const Scoring& scoring, const SearchOptions& options, SearchStart start,
@@ -42,8 +42,6 @@ class Search {
   /// Ends the search; open candidates count as cut off.
   void stop();
   bool finished() const;
-  /// All answers so far, in the order of asking.
-  std::vector<CandidateResult> results() const;
   /// Requirement: it has finished.
   const Calibration& result() const;
 

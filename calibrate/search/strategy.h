@@ -20,7 +20,7 @@ namespace pastefit {
 ///      coarse grains first. Coarse results enter only the surrogate, corrected by the bias between the grain sizes
 ///      (`low_fidelity.h`); they are not in the budget or in `history`.
 ///   2. Search. "default": a Gaussian process of each residual, trained on all simulations. The point of largest
-///      acquisition (`proposals.h`) is simulated on a fresh packing and may end early (`evaluate/early_end.h`, as in
+///      acquisition (`proposals.h`) is simulated on a fresh packing and may end early (`evaluate/simulation.h`, as in
 ///      the screening); it is completed if its bound does not rule it out. This repeats until a candidate is more
 ///      likely than not to be confirmed (`candidate_ranking.h`), or the acquisition is negligible. Up to `max_pending`
 ///      candidates are pending at the next proposal. An NLopt algorithm by name, or Ceres ("levenberg_marquardt",

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "calibrate/evaluate/scoring.h"
+#include "calibrate/evaluate/response.h"
 #include "calibrate/models/exceedance.h"
 #include "calibrate/models/gaussian_process.h"
 #include "calibrate/models/replicates.h"

@@ -91,7 +91,7 @@ struct SearchOptions {
   int examination_simulations = 12;  ///< of the same budget, after the search: which other candidates fit as well
   std::optional<double> tolerance_mm = std::nullopt;  ///< of fitted lengths without a tolerance of their own
   bool coarse_first = false;                          ///< search with coarse grains first (`calibrate/study/tests.h`)
-  bool end_early = true;  ///< candidates may be stopped early (`calibrate/evaluate/early_end.h`)
+  bool end_early = true;  ///< candidates may be stopped early (`calibrate/evaluate/simulation.h`)
   std::uint64_t seed = 1;
 };
 

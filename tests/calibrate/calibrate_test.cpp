@@ -143,7 +143,7 @@ TEST_CASE("a study whose residuals would not be finite is refused, whoever put i
   const auto fault_of = [](auto spoil) {
     Study study = coarse_study();
     spoil(study);
-    const Faults faults = validate(study, {});
+    const Faults faults = validate(study);
     REQUIRE(faults.size() == 1);
     CHECK(faults[0].what.find("not finite") != std::string::npos);
     return faults[0].where;

@@ -58,13 +58,12 @@ int main(int argc, char** argv) {
   auto store = Store::open(folder + "/evaluations.sqlite", {"toy", inputs_of(study)});
   if (!store.ok()) return fail(store.faults());
 
-  CalibrateOptions options;
-  options.study_file = "study.json";
+  PoolOptions options;
   options.threads = 2;
   options.engine.prepare = [](const Test&, const RunOptions&) { return std::shared_ptr<const Packing>(); };
   options.engine.run = of_slump(toy_slump);
   const auto known = store.value().size();
-  const auto calibrated = calibrate(study, store.value(), options);
+  const auto calibrated = calibrate(study, store.value(), options, {}, "study.json");
   if (!calibrated.ok()) return fail(calibrated.faults());
   const CalibrationResult& result = calibrated.value();
   if (!result.card) return 1;

@@ -48,7 +48,7 @@ double true_lead_of(const Twin& twin, const Store& store, const UnitPoint& recom
 
 }  // namespace
 
-Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number, const CalibrateOptions& options) {
+Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number, const PoolOptions& options) {
   Twin twin;
   twin.number = number;
   twin.study = study;
@@ -92,7 +92,7 @@ Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number,
   return twin;
 }
 
-TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_file, const CalibrateOptions& options) {
+TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_file, const PoolOptions& options) {
   TwinResult result;
   result.number = twin.number;
   const auto start = std::chrono::steady_clock::now();

@@ -53,9 +53,9 @@ struct TwinResult {
 
 /// The twin's laboratory: simulations of the truth, read with a ruler. Truths are Sobol points of the study's box.
 /// Errors: the truth fails on one of its packings.
-Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number, const CalibrateOptions& options);
+Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number, const PoolOptions& options);
 
 /// Calibrates the twin as `pastefit calibrate` does, with its evaluations in `store_file`, and compares with the truth.
-TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_file, const CalibrateOptions& options);
+TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_file, const PoolOptions& options);
 
 }  // namespace pastefit

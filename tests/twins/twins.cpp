@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   int twins = 50, first = 0, budget = 0;
   double radius_mm = 0, truth_radius_mm = 0, tolerance_mm = 0, minutes = 1e9;
   std::string study_file, folder, report_file;
-  CalibrateOptions options;
+  PoolOptions options;
   CLI::App app{"Twin laboratories: known materials, calibrated and compared with the truth."};
   app.add_option("STUDY", study_file, "study whose box, apparatus and readings the twins have")->required();
   app.add_option("--out", folder, "folder for twins.csv and the evaluations; twins that it has are not made again")

@@ -11,7 +11,7 @@ namespace pastefit::synthetic {
 /// CandidateQueue that an objective answers, so that parts of a strategy can be tried by themselves.
 class Answered {
  public:
-  explicit Answered(Objective& objective) : queue(objective, objective.simulations_left(), {}), objective_(objective) {}
+  explicit Answered(Objective& objective) : queue(objective, objective.simulations_left()), objective_(objective) {}
 
   /// The answers to what the history awaits.
   const std::vector<Response>& answers_of(EvaluationHistory& history) {

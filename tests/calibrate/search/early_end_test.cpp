@@ -1,10 +1,9 @@
-#include "calibrate/evaluate/early_end.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "calibrate/evaluate/record.h"
 #include "calibrate/evaluate/response.h"
+#include "calibrate/evaluate/simulation.h"
 #include "calibrate/inference/training_data.h"
 #include "calibrate/search/search.h"
 #include "calibrate/search/surrogate.h"

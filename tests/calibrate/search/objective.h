@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/evaluate/scoring.h"
+#include "calibrate/evaluate/response.h"
 #include "calibrate/search/search.h"
 
 namespace pastefit {

@@ -74,25 +74,6 @@ TEST_CASE("answers in any order, from any number of workers, lead to the same ca
   }
 }
 
-TEST_CASE("a search that was saved goes on where it was, and asks nothing twice") {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    CAPTURE(seed);
-    const Calibration expected = in_one_call(seed);
-    Synthetic before = fake_slump(150, seed), after = fake_slump(150, seed);
-    std::vector<CandidateResult> saved;
-    {
-      Search first(before, options_of(seed), {.simulations = budget});
-      go_on(first, before, 4, seed, 3 + seed);
-      saved = first.results();
-      CHECK(saved.size() == 3 + seed);
-    }
-    Search second(after, options_of(seed), {.simulations = budget, .answers = saved});
-    go_on(second, after, 4, seed + 1);
-    check_same(second.result(), expected);
-    CHECK(before.simulations + after.simulations == expected.simulations);
-  }
-}
-
 TEST_CASE("a stop ends a search without another answer, with the best so far") {
   Synthetic slump = fake_slump(150, 3);
   Search asked(slump, options_of(3), {.simulations = budget});
