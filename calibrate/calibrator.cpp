@@ -87,7 +87,8 @@ Faults Calibrator::ingest(const Simulation& simulation, const StoredEvaluation& 
   const auto place = static_cast<std::size_t>(known - simulations.begin());
   if (!asked_[simulation.candidate].evaluations.at(place).key.empty()) return {};
   if (auto faults = answers_.add(evaluation); !faults.empty()) return faults;
-  enter(simulation.candidate, place, answers_.find(simulation).value(), &EvaluationCounts::simulated);
+  // The store may hold a damaged evaluation under this key, which is not found and not replaced.
+  enter(simulation.candidate, place, answers_.find(simulation).value_or(evaluation), &EvaluationCounts::simulated);
   advance();
   return {};
 }
