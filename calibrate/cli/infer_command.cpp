@@ -48,8 +48,10 @@ Faults differences(const Card& card, const Study& study, const std::string& file
 int infer_again(const InferOptions& options) {
   const std::filesystem::path from = options.from;
   const std::string card_file = (from / kCardFile).string(), store_file = (from / kStore).string();
-  Card card = value_or_throw(read_card(card_file));
-  const Study study = value_or_throw(read_study_with(options.study, card.provenance.settings));
+  auto read = read_card(card_file);
+  const auto settings = read.ok() ? read.value().provenance.settings : std::vector<std::string>();
+  const Study study = value_or_throw(read_study_with(options.study, settings));
+  Card card = value_or_throw(std::move(read));
   refuse(differences(card, study, card_file));
   const Store store = value_or_throw(Store::read(store_file));
   for (const auto& remark : store.remarks()) note("pastefit: %s: %s\n", kStore.c_str(), remark.c_str());

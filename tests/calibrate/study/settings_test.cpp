@@ -56,7 +56,8 @@ TEST_CASE("an unknown key or a bad value of a setting is the fault of a file wit
              Catch::Contains("concrete-mix-79.json: parameters.friction.maximum: unknown key"));
   CHECK_THAT(faults_of("parameters.fricton={\"value\": 1}"), Catch::Contains("did you mean \"friction\"?"));
   CHECK_THAT(faults_of("serach.seed=3"), Catch::Contains("concrete-mix-79.json: serach: unknown key"));
-  CHECK_THAT(faults_of("search.budget_simulations=many"), Catch::Contains("search.budget_simulations: is \"many\""));
+  CHECK_THAT(faults_of("search.budget_simulations=many"),
+             Catch::Contains("search.budget_simulations: is the text \"many\""));
   CHECK_THAT(faults_of("parameters.friction.upper=-1"), Catch::Contains("parameters.friction.free"));
   CHECK_THAT(faults_of("search"), Catch::Contains("is not path=value"));
 }
