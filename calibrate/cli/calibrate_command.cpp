@@ -70,7 +70,7 @@ int deliver_material(const CalibrationResult& result, const Store& store, const 
   const auto summary = summary_of(card, result.inference ? describe(*result.inference) : "");
   const auto unwritten = write_card(folder, card, summary);
   print("%s", (options.json ? json_text(to_json(card)) : summary).c_str());
-  if (!options.json)  // not in the file: the commands are those of this folder
+  if (!options.json && !is_quiet())  // not in the file: the commands are those of this folder
     print("%s", next_step_lines(in_the_way(card), next_steps(card, options.command(), options.out)).c_str());
   refuse(unwritten, kFailed);
   std::vector<std::string> files{kCardFile, kSummary, kPage, kStore};
@@ -93,8 +93,9 @@ int say_why_not(const CalibrationResult& result, const Study& study, const Store
   }
   std::fprintf(stderr, "The simulations are stored in %s.\n", folder.file(kStore).c_str());
   const std::string status(name_of(result.search.status));
-  std::fprintf(stderr, "%s",
-               next_step_lines("", next_steps_without_card(status, options.command(), options.study)).c_str());
+  if (!is_quiet())
+    std::fprintf(stderr, "%s",
+                 next_step_lines("", next_steps_without_card(status, options.command(), options.study)).c_str());
   if (options.json)
     print("%s", json_text({{"status", name_of(result.search.status)},
                            {"reason", result.search.reason},
