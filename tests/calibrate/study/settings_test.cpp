@@ -20,13 +20,13 @@ Study with(const std::vector<std::string>& settings) {
   return std::move(study).value();
 }
 
-std::string faults_of(const std::string& setting) {
+std::string refusal_of(const std::string& setting) {
   const auto study = read_study_with(kStudy, {setting});
   REQUIRE_FALSE(study.ok());
   return message_of(study.faults());
 }
 
-const Parameter& friction_of(const Study& study) {
+const Parameter& friction_in(const Study& study) {
   return *std::ranges::find(study.parameters, "friction", &Parameter::name);
 }
 
@@ -34,8 +34,8 @@ const Parameter& friction_of(const Study& study) {
 
 TEST_CASE("a setting changes a study as an edited file would: its inputs and its hash, and it keeps the settings") {
   const Study plain = with({}), changed = with({"parameters.friction.upper=0.8", "search.seed=7"});
-  CHECK(friction_of(changed).upper == 0.8);
-  CHECK(friction_of(changed).lower == friction_of(plain).lower);
+  CHECK(friction_in(changed).upper == 0.8);
+  CHECK(friction_in(changed).lower == friction_in(plain).lower);
   CHECK(changed.search.seed == 7);
   CHECK(changed.settings == std::vector<std::string>{"parameters.friction.upper=0.8", "search.seed=7"});
   CHECK(changed.hash != plain.hash);
@@ -45,25 +45,25 @@ TEST_CASE("a setting changes a study as an edited file would: its inputs and its
 }
 
 TEST_CASE("a fixed parameter is freed, and a free one fixed, by a setting") {
-  CHECK_FALSE(friction_of(with({"parameters.friction={\"value\": 0.2}"})).free);
+  CHECK_FALSE(friction_in(with({"parameters.friction={\"value\": 0.2}"})).free);
   CHECK(
-      friction_of(with({"parameters.friction={\"value\": 0.2}", "parameters.friction={\"free\": [0.1, 0.9]}"})).upper ==
+      friction_in(with({"parameters.friction={\"value\": 0.2}", "parameters.friction={\"free\": [0.1, 0.9]}"})).upper ==
       0.9);
 }
 
 TEST_CASE("an unknown key or a bad value of a setting is the fault of a file with it: place and remedy") {
-  CHECK_THAT(faults_of("parameters.friction.maximum=0.8"),
+  CHECK_THAT(refusal_of("parameters.friction.maximum=0.8"),
              Catch::Contains("concrete-mix-79.json: parameters.friction.maximum: unknown key"));
-  CHECK_THAT(faults_of("parameters.fricton={\"value\": 1}"), Catch::Contains("did you mean \"friction\"?"));
-  CHECK_THAT(faults_of("serach.seed=3"), Catch::Contains("concrete-mix-79.json: serach: unknown key"));
-  CHECK_THAT(faults_of("search.budget_simulations=many"),
+  CHECK_THAT(refusal_of("parameters.fricton={\"value\": 1}"), Catch::Contains("did you mean \"friction\"?"));
+  CHECK_THAT(refusal_of("serach.seed=3"), Catch::Contains("concrete-mix-79.json: serach: unknown key"));
+  CHECK_THAT(refusal_of("search.budget_simulations=many"),
              Catch::Contains("search.budget_simulations: is the text \"many\""));
-  CHECK_THAT(faults_of("parameters.friction.upper=-1"), Catch::Contains("parameters.friction.free"));
-  CHECK_THAT(faults_of("search"), Catch::Contains("is not path=value"));
+  CHECK_THAT(refusal_of("parameters.friction.upper=-1"), Catch::Contains("parameters.friction.free"));
+  CHECK_THAT(refusal_of("search"), Catch::Contains("is not path=value"));
 }
 
 TEST_CASE("a bound of a parameter that is not free is answered with how to free it") {
-  CHECK_THAT(faults_of("parameters.fricton.upper=0.8"), Catch::Contains("did you mean \"friction\"?"));
-  CHECK_THAT(faults_of("parameters.restitution.upper=0.8"),
+  CHECK_THAT(refusal_of("parameters.fricton.upper=0.8"), Catch::Contains("did you mean \"friction\"?"));
+  CHECK_THAT(refusal_of("parameters.restitution.upper=0.8"),
              Catch::Contains("not free") && Catch::Contains("parameters.restitution={\"free\": [LOWER, UPPER]}"));
 }
