@@ -27,7 +27,10 @@ std::string machine_type() {
 #if PASTEFIT_X86
   if (__builtin_cpu_supports("fma")) out += " fma";
 #endif
-#ifdef __GLIBC__
+#if defined(__EMSCRIPTEN__)
+  return out + " emscripten " + std::to_string(__EMSCRIPTEN_major__) + "." + std::to_string(__EMSCRIPTEN_minor__) +
+         "." + std::to_string(__EMSCRIPTEN_tiny__);
+#elif defined(__GLIBC__)
   return out + " glibc " + gnu_get_libc_version();
 #else
   return out + " another C library";

@@ -78,6 +78,10 @@ PASTEFIT_INLINE Pack<Number, W> square_root(Pack<Number, W> a) {
 #if PASTEFIT_X86
   if constexpr (sizeof(a) == 16 && sizeof(Number) == 8) return Pack<Number, W>(_mm_sqrt_pd(a.v));
   if constexpr (sizeof(a) == 16 && sizeof(Number) == 4) return Pack<Number, W>(_mm_sqrt_ps(a.v));
+#elif PASTEFIT_SIMD128
+  using Lanes = typename Pack<Number, W>::Lanes;
+  if constexpr (sizeof(Number) == 8) return Pack<Number, W>((Lanes)wasm_f64x2_sqrt((v128_t)a.v));
+  if constexpr (sizeof(Number) == 4) return Pack<Number, W>((Lanes)wasm_f32x4_sqrt((v128_t)a.v));
 #else
   for (int lane = 0; lane < W; ++lane) a.v[lane] = std::sqrt(a.v[lane]);  // one instruction, with optimisation
   return a;
@@ -128,6 +132,8 @@ PASTEFIT_INLINE bool any(Mask mask) {
 #endif
 #if PASTEFIT_X86
   if constexpr (sizeof(Mask) == 16) return _mm_movemask_ps(reinterpret_cast<__m128>(mask)) != 0;
+#elif PASTEFIT_SIMD128
+  return wasm_v128_any_true((v128_t)mask);
 #else
   using Halves = typename LaneTypes<double, 2>::Mask;
   const Halves halves = reinterpret_cast<Halves>(mask);

@@ -164,6 +164,10 @@ PASTEFIT_INLINE void read_differences(From from, To to, Doubles<W> (&columns)[4]
 PASTEFIT_INLINE Singles<4> narrow(Doubles<2> first, Doubles<2> second) {
 #if PASTEFIT_X86
   return Singles<4>(_mm_movelh_ps(_mm_cvtpd_ps(first.v), _mm_cvtpd_ps(second.v)));
+#elif PASTEFIT_SIMD128
+  v128_t low = wasm_f32x4_demote_f64x2_zero((v128_t)first.v), high = wasm_f32x4_demote_f64x2_zero((v128_t)second.v);
+  __asm__("" : "+r"(low), "+r"(high));  // or else LLVM 14 takes them apart and rounds each lane on its own
+  return Singles<4>(__builtin_shufflevector((Singles<4>::Lanes)low, (Singles<4>::Lanes)high, 0, 1, 4, 5));
 #else
   using Half = LaneTypes<float, 2>::Lanes;
   return Singles<4>(__builtin_shufflevector(__builtin_convertvector(first.v, Half),
