@@ -47,9 +47,10 @@ ordered_json stop(const json&) {
 }
 
 ordered_json simulated(const json& request) {
+  const auto task = request.at("task").get<std::string>();
   std::string answer;
   try {
-    answer = simulate_task(request.at("task").get<std::string>());
+    answer = simulate_task(task);
   } catch (const std::exception& error) {
     answer = failed_task(error.what());
   }
@@ -90,7 +91,8 @@ std::string answer_to_call(const std::string& name, const std::string& request) 
   };
   try {
     const auto call = calls().find(name);
-    if (call == calls().end()) return text(faults_json({{name, "is no call of the module", "see calls.h"}}));
+    if (call == calls().end())
+      return text(faults_json({{name, "is no call of the module", "one of calibrate/browser/calls.cpp"}}));
     return text({{"ok", call->second(json::parse(request))}});
   } catch (const Refusal& refusal) {
     return text(faults_json(refusal.faults));

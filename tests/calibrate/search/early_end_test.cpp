@@ -30,7 +30,6 @@ struct TwoSteps : Laboratory {
     study.search.budget_simulations = 60;
     study.search.packings = 2;
     study.search.screening = 12;
-    options.budget = 60;
     twist = [this](const SlumpTest& test, const RunOptions& run, Outcome& outcome) {
       const double strength =
           std::log(test.contact.bridge.c_n / std::pow(test.grains.radius_m, 2) / 100) / std::log(100);
