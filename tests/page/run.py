@@ -190,7 +190,8 @@ def calibrate_in_browser(source, work, name, loader, module, test):
     page, shots = work / f"{name}.html", work / "shots"
     shots.mkdir(exist_ok=True)
     subprocess.run(["node", "build.mjs", loader, module, page], cwd=tests.parents[1] / CALIBRATOR, check=True)
-    environment = dict(os.environ, PASTEFIT_CALIBRATOR=str(page), PASTEFIT_SHOTS=str(shots))
+    environment = dict(os.environ, PASTEFIT_CALIBRATOR=str(page), PASTEFIT_SHOTS=str(shots),
+                       PASTEFIT_TOY=str(source / "tests/reliability"))
     sys.exit(subprocess.run(["node", "--test", test], cwd=tests / "calibrator", env=environment).returncode)
 
 

@@ -121,8 +121,8 @@ function facts({ progress, seconds, remaining }, texts) {
 function moving(live, texts) {
   const { progress, deaths } = live;
   const replaced = deaths === 1 ? texts.replacedOne : fill(texts.replaced, { count: deaths });
-  const bar = element("progress", { max: progress?.budget || 1, "aria-label": texts.simulations });
-  bar.value = progress?.simulations ?? 0;
+  const [value, max] = [progress?.simulations ?? 0, progress?.budget || 1];
+  const bar = element("progress", { value, max, "aria-label": texts.simulations });
   return [
     bar,
     facts(live, texts),
