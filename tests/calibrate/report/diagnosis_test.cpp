@@ -12,7 +12,7 @@ using namespace pastefit;
 
 namespace {
 
-Card shipped_card(const std::string& name) {
+Card card_named(const std::string& name) {
   auto read = read_card(std::string(PASTEFIT_SOURCE_DIR) + "/data/cards/" + name + ".json");
   REQUIRE(read.ok());
   return std::move(read).value();
@@ -33,17 +33,17 @@ CardReading& height_of(Card& card) {
 
 TEST_CASE("the reservations of a summary are those of the diagnoses, in their order") {
   for (const char* name : {"concrete-mix-02", "concrete-mix-20", "concrete-mix-79"}) {
-    const Card card = shipped_card(name);
+    const Card card = card_named(name);
     std::vector<std::string> all;
     for (const Diagnosis& one : diagnoses_of(card))
       for (const std::string& words : one.reservations) all.push_back(words);
     CHECK(reservations_on(card) == all);
   }
-  CHECK(of(shipped_card("concrete-mix-20"), "heaps sheared off").is_doubtful());
+  CHECK(of(card_named("concrete-mix-20"), "heaps sheared off").is_doubtful());
 }
 
 TEST_CASE("a reading beyond its tolerance is doubtful and no reservation, as the verdict states it") {
-  Card card = shipped_card("concrete-mix-79");
+  Card card = card_named("concrete-mix-79");
   CHECK_FALSE(of(card, "readings within tolerance").is_doubtful());
   CardReading& height = height_of(card);
   height.simulated = *height.measured + 2 * height.tolerance;
@@ -54,7 +54,7 @@ TEST_CASE("a reading beyond its tolerance is doubtful and no reservation, as the
 }
 
 TEST_CASE("scatter is doubtful only if it exceeds the published repeatability by more than chance") {
-  Card card = shipped_card("concrete-mix-79");
+  Card card = card_named("concrete-mix-79");
   CardReading& height = height_of(card);
   height.packings = 8;
   height.simulated_standard_deviation = 9;  // published: 7.5 mm; of 8 heaps, chance explains 10.6
@@ -73,7 +73,7 @@ TEST_CASE("the lower limit of a standard deviation is that of the chi-square dis
 }
 
 TEST_CASE("grains too large for the opening and parameters without an interval are doubtful") {
-  Card card = shipped_card("concrete-mix-79");
+  Card card = card_named("concrete-mix-79");
   CHECK_THAT(of(card, "number of grains").numbers, Catch::Contains("5 of the largest across"));
   CHECK(of(card, "intervals").notes.size() == card.inference.not_identified.size());
   specimen_of(card.tests[0].test).grains.largest_m *= 1.5;
@@ -83,7 +83,7 @@ TEST_CASE("grains too large for the opening and parameters without an interval a
 }
 
 TEST_CASE("simulations that created energy make the time step doubtful") {
-  Card card = shipped_card("concrete-mix-79");
+  Card card = card_named("concrete-mix-79");
   StoredEvaluation run;
   run.run.energy_error = -0.004;
   CHECK_THAT(of(card, "time step", {&run, 1}).numbers,
@@ -93,7 +93,7 @@ TEST_CASE("simulations that created energy make the time step doubtful") {
 }
 
 TEST_CASE("a validation test that was not predicted is doubtful, and without one nothing is known") {
-  Card card = shipped_card("concrete-mix-79");
+  Card card = card_named("concrete-mix-79");
   CHECK_FALSE(of(card, "validation test").unknown.empty());
   card.tests.push_back(card.tests[0]);
   card.tests[1].name = "slow";
@@ -105,7 +105,7 @@ TEST_CASE("a validation test that was not predicted is doubtful, and without one
 }
 
 TEST_CASE("every doubtful property says when it may be ignored and on which page it is explained, in 80 columns") {
-  const auto all = diagnoses_of(shipped_card("concrete-mix-20"));
+  const auto all = diagnoses_of(card_named("concrete-mix-20"));
   const auto json = diagnosis_json(all);
   CHECK(json.size() == all.size());
   for (const auto& one : json) {
