@@ -10,7 +10,7 @@ import sys
 
 # What each count may be at most. Lower a number when the tree shrinks; one that has to grow wants a reason in its commit.
 MOST = {
-    "lines of C++ in calibrate": 37949,
+    "lines of C++ in calibrate": 37960,
     "files of core and calibrate": 449,
     "of them below 40 lines": 65,
     "files that start or wait for threads": 2,
@@ -59,9 +59,9 @@ def counts(source):
         return sum(bool(re.search(pattern, content)) for content in text.values())
 
     return {
-        "lines of C++ in calibrate": 37949sum(count for file, count in lines.items() if "calibrate" in file.relative_to(source).parts),
-        "files of core and calibrate": 449len(files),
-        "of them below 40 lines": 65sum(count < 40 for count in lines.values()),
+        "lines of C++ in calibrate": sum(count for file, count in lines.items() if "calibrate" in file.relative_to(source).parts),
+        "files of core and calibrate": len(files),
+        "of them below 40 lines": sum(count < 40 for count in lines.values()),
         "files that start or wait for threads": matching(r"std::j?thread> |std::condition_variable"),
         "files that decide whether a material meets the laboratory": matching(r"\? Verdict::meets : "),
         "files in which a reading has its name": matching(r"plateau_width"),
