@@ -24,12 +24,12 @@ struct PoolOptions {
   double wall_budget_s = 0;                 ///< from construction; then as if `stop` were true; 0: no limit
   double core_budget_s = 0;                 ///< processor time of all simulations; likewise
   const std::atomic<bool>* stop = nullptr;  ///< true: the user requests a stop
-  std::function<void()> pulse;              ///< called repeatedly during each simulation, from any thread
+  std::function<void()> pulse = {};         ///< called repeatedly during each simulation, from any thread
   RunObserver* run_observer = nullptr;      ///< observes those that are begun as observed
-  Engine engine;
+  Engine engine = {};
   /// Options of every simulation and preparation, except packing and watch, which are set here. With `own_fill` every
   /// simulation fills its own mould. Values other than the default belong into the identity of the store.
-  RunOptions run;
+  RunOptions run = {};
 };
 
 /// Simulates in parallel, in the order of `begin`, and stores every finished simulation before its result is used.
