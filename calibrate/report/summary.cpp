@@ -85,7 +85,7 @@ std::string yield_stress_lines(const Card& card) {
 std::string hold_out_lines(const Card& card) {
   std::string out;
   for (const auto& test : card.tests)
-    if (test.within_noise) out += "Hold-out " + hold_out_in_words(test) + ".\n";
+    if (test.within_noise) out += "Validation test " + hold_out_in_words(test) + ".\n";
   return out;
 }
 

@@ -35,7 +35,7 @@ class CardCommands(Desk):
         for file in sorted(CARD.parent.glob("*.json")):
             result = run("show", file)
             self.assertEqual(result.returncode, 0, result.stderr)
-            for words in ("Type this into your DEM program", "density of a grain", "What the readings leave open", "Fitted in", "Baseline of checks"):
+            for words in ("Type this into your DEM program", "density of a grain", "Intervals of the parameters", "Fitted in", "Baseline of checks"):
                 self.assertIn(words, result.stdout)
 
     def test_bad_cards_are_bad_input_for_every_verb_and_nothing_is_written(self):
@@ -218,7 +218,7 @@ class CardCommands(Desk):
         coarse = self.folder / "coarse.json"
         run("rescale", sheared, "--radius", "11", "--packings", "0", "--out", coarse)
         self.assertEqual(run("show", sheared).stdout.split("\n")[0], f"NOT CONFIRMED: {cause}")
-        self.assertTrue(run("show", coarse).stdout.startswith("NOT CONFIRMED: carried over from grains of"))
+        self.assertTrue(run("show", coarse).stdout.startswith("NOT CONFIRMED: converted from grains of"))
         self.assertNotIn("NOT CONFIRMED", run("show", CARD).stdout)
         for target in TARGETS:
             out = self.folder / target
@@ -230,7 +230,7 @@ class CardCommands(Desk):
             self.assertGreater(len(files), 1)
             for file in files:
                 with self.subTest(file=file.name):
-                    self.assertIn("NOT CONFIRMED: carried over", file.read_text().split("\n")[0])
+                    self.assertIn("NOT CONFIRMED: converted", file.read_text().split("\n")[0])
 
     def test_what_the_target_lacks_and_that_a_card_is_unconfirmed_are_said_at_once(self):
         card = json.loads(coarse_card().read_text())

@@ -151,7 +151,7 @@ class CommandLine(Desk):
         self.assertNotIn("\r", result.stderr)
         for word in ("screening", "simulations", "card.json"):
             self.assertIn(word, result.stderr)
-        for word in ("strength_pa", "attraction at touch", "step1.height_mm", "laboratory"):
+        for word in ("strength_pa", "attraction at touch", "step1.height_mm", "measurement"):
             self.assertIn(word, result.stdout)
         card = json.loads((self.out / "card.json").read_text())
         jsonschema.validate(card, schemas.schema(SOURCE / "data", "card"))
@@ -289,7 +289,7 @@ class CommandLine(Desk):
         result = self.calibrates(file, "--resume")
         self.assertIn("study.parameters.strength_pa.free", result.stderr)
         self.assertIn("measurements.step1.height_mm", result.stderr)
-        self.assertRegex(result.stderr, r"[1-9][0-9]* candidates are known from before")
+        self.assertRegex(result.stderr, r"[1-9][0-9]* stored candidates lie within")
         card = json.loads((self.out / "card.json").read_text())
         self.assertEqual(card["material"]["free"]["strength_pa"]["lower"], 400)
         self.assertEqual(card["tests"][0]["readings"]["step1.height_mm"]["repeats"], 3)
@@ -312,8 +312,8 @@ class CommandLine(Desk):
         study["parameters"]["formation_ratio"]["prior"] = {"value": 0.8, "standard_deviation": 0.1}
         file.write_text(json.dumps(study))
         result = self.calibrates(file)
-        for words in ("slow/step1.height_mm", "Test fast", "Test later, held out", "Hold-out later",
-                      "formation_ratio was known to be 0.8 +- 0.1"):
+        for words in ("slow/step1.height_mm", "Test fast", "Test later, validation test", "Validation test later",
+                      "formation_ratio had the prior 0.8 +- 0.1"):
             self.assertIn(words, result.stdout)
         card = json.loads((self.out / "card.json").read_text())
         jsonschema.validate(card, schemas.schema(SOURCE / "data", "card"))

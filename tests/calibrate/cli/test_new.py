@@ -344,7 +344,7 @@ class New(Desk):
                           "A/12;;2,35;18,0;330;180,5;M\nA/13;;2,28;10,0;270;175;M\n;;;;;;\n".encode("cp1252"))
         result = run("new", self.out, "--from", table, "--mould", "abrams")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("columns that are not used: Pr\u00fcfer", result.stderr)
+        self.assertIn("columns ignored: Pr\u00fcfer", result.stderr)
         self.assertIn("columns of the mix: Wasser (kg/m\u00b3)", result.stderr)
         self.assertIn(f"pastefit batch {self.out}/*/study.json --out {self.out}/out", result.stdout)
         lab = document(self.out / "a-12" / "lab.json")

@@ -142,7 +142,7 @@ class Sheets(Desk):
         self.assertEqual(result.returncode, 0, result.stderr)
         plate = {"length_mm": 80, "mass_kg": 1, "lift_height_mm": 5}
         lab = self.lab(self.TALL, 1150, apparatus={**self.TUBE, "drop_plate": plate}, radius_mm=1.5)
-        self.refused(lab, "apparatus.reading.sag_window_mm: is 100 mm, which is the default", "add the key")
+        self.refused(lab, "apparatus.reading.sag_window_mm: is 100 mm (the default)", "add the key")
 
     def test_settings_mend_the_laboratory_file_of_a_study(self):
         self.lab(self.TALL, 1150, apparatus=self.TUBE, radius_mm=9)  # too coarse as it stands
@@ -281,7 +281,7 @@ class Sheets(Desk):
         weights = {"step1.height_mm": 1, "step1.spread_mm": 1, "step1.lateral_shift_mm": 1}
         study = self.study_of(weights=weights, tolerances={name: 25 for name in weights})
         result = self.calibrates(study)
-        self.assertIn("readings that were not taken are left out: step1.height_mm, step1.lateral_shift_mm", result.stderr)
+        self.assertIn("of readings that were not measured: step1.height_mm, step1.lateral_shift_mm", result.stderr)
         study.write_text(run("template", "study").stdout.replace('"budget_simulations": 150', '"budget_simulations": 30'))
         self.assertEqual(run("simulate", study).returncode, 0)
 

@@ -136,7 +136,7 @@ TEST_CASE("a prior and a reading of the same parameter are weighed by their vari
   CHECK(one.upper == Approx(0.55 + 1.96 * 0.05 / std::sqrt(2.0)).margin(0.012));
   CHECK(one.deviation_before == Approx(0.05).epsilon(0.01));
   CHECK(one.uncertainty == Approx(1 / std::sqrt(2.0)).margin(0.06));
-  CHECK_THAT(describe(inference), Catch::Contains("first was known to be 0.6 +- 0.05; with the readings"));
+  CHECK_THAT(describe(inference), Catch::Contains("first had the prior 0.6 +- 0.05; with the readings"));
 }
 
 TEST_CASE("a prior tells apart what the reading alone cannot, and what came from it is said") {
@@ -147,7 +147,7 @@ TEST_CASE("a prior tells apart what the reading alone cannot, and what came from
   CHECK(inference.intervals[0].lower == Approx(0.7 - 1.96 * std::hypot(0.05, 0.03)).margin(0.02));
   CHECK(inference.intervals[0].upper == Approx(0.7 + 1.96 * std::hypot(0.05, 0.03)).margin(0.02));
   CHECK(inference.intervals[1].uncertainty > 0.9);
-  CHECK_THAT(describe(inference), Catch::Contains("second was known to be 0.3 +- 0.03; the readings add nothing"));
+  CHECK_THAT(describe(inference), Catch::Contains("second had the prior 0.3 +- 0.03; the readings do not narrow it"));
   for (const EquivalentMaterial& member : inference.family) CHECK(member.values[1] == Approx(0.3).margin(0.12));
 }
 
