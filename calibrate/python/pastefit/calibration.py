@@ -54,7 +54,7 @@ class CalibrationResult:
 
     @property
     def confirmed(self) -> bool:
-        """Whether the material meets the laboratory on packings that the search had not seen."""
+        """Whether the material reproduces the measurement on packings that the search has not used."""
         return self.status == "confirmed"
 
     def to_pandas(self) -> Any:

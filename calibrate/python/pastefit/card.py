@@ -1,4 +1,4 @@
-"""A material card: the contact law in numbers, how well it meets the laboratory, and where it comes from."""
+"""A material card: the contact law in numbers, how well it reproduces the measurement, and where it comes from."""
 
 import json
 import os
@@ -66,7 +66,7 @@ class Card:
 
     @property
     def verdict(self) -> str:
-        """One sentence: whether the material meets the laboratory."""
+        """One sentence: whether the material reproduces the measurement."""
         return _core.card_verdict(self._text).strip()
 
     @property
