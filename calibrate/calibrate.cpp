@@ -49,10 +49,11 @@ class UnderWay {
   void await(Calibrator& calibrator) {
     if (runs_.empty()) return;
     (void)SimulationPool::wait(*runs_.front().run);
-    const auto over = std::ranges::stable_partition(runs_, [](const One& one) { return !one.run->is_over(); });
-    for (const auto& [simulation, run] : over)
-      if (const auto answer = SimulationPool::wait(*run)) (void)calibrator.ingest(simulation, *answer);
-    runs_.erase(over.begin(), over.end());
+    const auto over =
+        std::stable_partition(runs_.begin(), runs_.end(), [](const One& one) { return !one.run->is_over(); });
+    for (auto one = over; one != runs_.end(); ++one)
+      if (const auto answer = SimulationPool::wait(*one->run)) (void)calibrator.ingest(one->simulation, *answer);
+    runs_.erase(over, runs_.end());
   }
 
  private:

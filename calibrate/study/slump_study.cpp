@@ -62,7 +62,7 @@ HeapWidth width_of(const SlumpTest& test, std::span<const Measurement> measured)
 ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
                    std::span<const Measurement> measured) {
   constexpr double stands = 0.5;
-  const ChosenLaws first{named, std::string(named.why)};
+  ChosenLaws first{named, std::string(named.why)};
   const auto epa = laws_for(sheet.target, "epa");
   if (!sheet.law.empty() || !epa) return first;
   if (named.law == "bridge") {
