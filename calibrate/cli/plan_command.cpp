@@ -51,7 +51,8 @@ Sheet expected_sheet(const PlanArguments& options) {
 fs::path write_expected(const PlanArguments& options) {
   const Sheet sheet = expected_sheet(options);
   const StartingFiles files = value_or_throw(starting_files(sheet, options.folder));
-  const fs::path folder = options.folder, lab = folder / "lab.json", study = folder / "study.json";
+  const fs::path folder = options.folder, lab = folder / "lab.json";
+  fs::path study = folder / "study.json";
   Faults faults = output_folder_faults(folder.string(), folder);
   std::error_code error;
   for (const fs::path& file : {lab, study})
