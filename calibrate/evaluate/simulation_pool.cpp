@@ -48,7 +48,10 @@ std::shared_ptr<SimulationPool::Run> SimulationPool::begin(Simulation simulation
   task->evaluation_ = unanswered(simulation, store_.identity().program);
   if (observed && options_.run_observer) task->look_ = options_.run_observer->begin(test_of(simulation));
   task->simulation_ = std::move(simulation);
-  task->done_ = pool_.submit([this, task] { run(*task); });
+  // The future keeps the work: it must not keep the run, which has the future.
+  task->done_ = pool_.submit([this, weak = std::weak_ptr(task)] {
+    if (const auto wanted = weak.lock()) run(*wanted);
+  });
   return task;
 }
 

@@ -64,7 +64,8 @@ class SimulationPool {
     std::shared_future<void> done_;
   };
 
-  /// Starts a simulation that the store does not have. Errors: std::logic_error for a point outside the unit cube.
+  /// Starts a simulation that the store does not have; it is left out if nobody holds the run any more. Errors:
+  /// std::logic_error for a point outside the unit cube.
   std::shared_ptr<Run> begin(Simulation simulation, bool observed = false);
   /// Waits for it; nothing if a stop cut it off. Errors: rethrows exceptions of the engine.
   static std::optional<StoredEvaluation> wait(Run& run);
