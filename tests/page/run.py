@@ -185,11 +185,12 @@ def browser(program, source, work):
 
 
 def calibrate_in_browser(source, work, name, loader, module, test):
-    """Builds the page with a module, and runs a test of it."""
+    """Builds the page with a module, and with the licences beside it if there are any; runs a test of it."""
     _, tests = with_packages(source, work, name)
     page, shots = work / f"{name}.html", work / "shots"
     shots.mkdir(exist_ok=True)
-    subprocess.run(["node", "build.mjs", loader, module, page], cwd=tests.parents[1] / CALIBRATOR, check=True)
+    licences = [file for file in [module.parent / "licences.txt"] if file.exists()]
+    subprocess.run(["node", "build.mjs", loader, module, page, *licences], cwd=tests.parents[1] / CALIBRATOR, check=True)
     environment = dict(os.environ, PASTEFIT_CALIBRATOR=str(page), PASTEFIT_SHOTS=str(shots),
                        PASTEFIT_TOY=str(source / "tests/reliability"))
     sys.exit(subprocess.run(["node", "--test", test], cwd=tests / "calibrator", env=environment).returncode)
