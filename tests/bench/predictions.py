@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Coverage of the bands that `pastefit predict` gives for another test.
 
-usage: predictions.py PROGRAM TABLE.csv [--twins 1-20] [--preset hinged-plate] [--crossed]
+usage: predictions.py PROGRAM TABLE.csv [--twins 1-20] [--preset hinged-plate] [--crossed] [--parameters JSON]
        predictions.py --report TABLE.csv
 
 A twin is a random material with the bridge (odd numbers) or elasto-plastic adhesion (even numbers). Its measurement is
@@ -38,6 +38,10 @@ def material_of(law, draw):
         return {"strength_pa": between(700, 2500), "rupture_gap_ratio": between(0.45, 0.95), "friction": between(0.07, 0.28),
                 "rolling_friction": draw.uniform(0.05, 0.45)}
     return {"adhesion_ratio": between(0.6, 1.5), "friction": between(0.03, 0.12), "table_friction": between(0.03, 0.5)}
+
+
+def without_comments(text):
+    return json.loads(re.sub(r"(?m)//.*$", "", text))
 
 
 def made(program, folder, law, words, mould):
@@ -79,8 +83,10 @@ def rows_of(number, options):
         height, spread, measured = twin_of(options.program, folder, law, number, options)
         fitted = LAWS[(number + 1) % 2] if options.crossed else law
         study = made(options.program, folder / "fit", fitted, ["--height", str(height), "--spread", str(spread)], "abrams")
-        text = re.sub(r'"seed": \d+', f'"seed": {number}', study.read_text())
-        study.write_text(text)
+        started = without_comments(study.read_text())
+        started["search"]["seed"] = number
+        started["parameters"] |= json.loads(options.parameters)
+        study.write_text(json.dumps(started))
         subprocess.run([options.program, "calibrate", study, "--out", folder / "out", "--threads", "1", "--quiet"], capture_output=True)
         card = json.loads((folder / "out/card.json").read_text())
         status, error = card["search"]["status"], round(card["confirmation"]["error"], 2)
@@ -131,6 +137,7 @@ if __name__ == "__main__":
     parser.add_argument("--twins", default="1-20")
     parser.add_argument("--preset", choices=READINGS, default="hinged-plate")
     parser.add_argument("--crossed", action="store_true", help="fit each twin with the other law")
+    parser.add_argument("--parameters", default="{}", help="JSON that replaces some of the study's parameters")
     parser.add_argument("--report", action="store_true")
     chosen = parser.parse_args()
     report(chosen.table) if chosen.report else measure(chosen)
