@@ -6,6 +6,7 @@
 #include "calibrate/search/candidate_search.h"
 #include "calibrate/search/conclusion.h"
 #include "calibrate/search/low_fidelity.h"
+#include "calibrate/search/recommendation.h"
 #include "calibrate/search/screening.h"
 
 namespace pastefit {
@@ -65,6 +66,13 @@ void Strategy::begin_candidates() {
   begin(Stage::candidates, candidate_phase(state_, with_coarse_));
 }
 
+/// A minimiser's result already is a point of least misfit.
+void Strategy::begin_recommendation() {
+  const bool by_surrogate = find_strategy(state_.options.strategy)->kind == StrategyKind::surrogate;
+  const bool chooses = by_surrogate && StrategyState::goal_is_met(state_.ranking());
+  begin(Stage::recommendation, chooses ? std::make_unique<RecommendationPhase>(state_) : nullptr);
+}
+
 void Strategy::begin_end() {
   begin(Stage::last_confirmation, nullptr);
   confirmation_.begin_last();
@@ -101,7 +109,11 @@ void Strategy::go_on() {
       if (state_.ranking().best().size() == 0) return begin_end();
       return begin(Stage::refinement, refinement_phase(state_));
     case Stage::refinement:
-      return history.stop_requested() ? begin_end() : begin_confirmation(Stage::confirmation, false);
+      return history.stop_requested() ? begin_end() : begin_recommendation();
+    case Stage::recommendation: {
+      const UnitPoint found = phase_ ? static_cast<const RecommendationPhase&>(*phase_).found() : UnitPoint{};
+      return history.stop_requested() ? begin_end() : begin_confirmation(Stage::confirmation, false, found);
+    }
     case Stage::confirmation:
       return confirmation_.confirmed() ? begin_end() : begin_candidates();
     case Stage::last_confirmation:

@@ -28,7 +28,9 @@ namespace pastefit {
 ///      remaining budget.
 ///   3. Refinement: Ceres on the residuals on the common packings, if no candidate's readings are likely to be
 ///      confirmed and the noise of these packings is below the allowed misfit.
-///   4. Confirmation of the best candidate on fresh packings: a quarter first, and no more if success is then unlikely;
+///   4. Recommendation, by the default strategy: of the candidates that are likely to be confirmed, the one of least
+///      expected misfit, priors included (`recommendation.h`).
+///   5. Confirmation of this candidate on fresh packings: a quarter first, and no more if success is then unlikely;
 ///      all at once with `max_pending`; up to eight times the study's number while undecided (`confirmation_phase.h`).
 ///      A candidate that is not confirmed is excluded, and the search continues from 2 with all results. Limit: a mean
 ///      that is judged up to fifteen times is accepted more often than one that is judged once. Where one packing
@@ -60,6 +62,7 @@ class Strategy {
     nearest_confirmation,
     candidates,
     refinement,
+    recommendation,
     confirmation,
     last_confirmation,
     over
@@ -72,6 +75,7 @@ class Strategy {
   void begin_nearest();
   /// Starts the next round of candidates; ends the search if it may not go on.
   void begin_candidates();
+  void begin_recommendation();
   void begin_end();
   /// Starts the next stage.
   void go_on();

@@ -11,8 +11,7 @@ constexpr double likely_enough = 0.5;  // probability of this at which a confirm
 constexpr double likely_to_hold = 0.75;
 
 template <class Chance>
-bool is_likely(const Chance& chance_within, const CandidateRanking& ranking) {
-  if (ranking.best().size() == 0) return false;
+bool is_enough(const Chance& chance_within) {
   return chance_within(goal_share) >= likely_enough || chance_within(1) >= likely_to_hold;
 }
 
@@ -27,12 +26,17 @@ std::vector<std::uint64_t> StrategyState::fresh_packings(int count) {
   return packings;
 }
 
+bool StrategyState::is_likely(const CandidateRanking& ranking, const UnitPoint& candidate) {
+  return is_enough([&](double tolerances) { return ranking.chance_of(candidate, tolerances); });
+}
+
 bool StrategyState::goal_is_met(const CandidateRanking& ranking) {
-  return is_likely([&](double tolerances) { return ranking.chance_of(ranking.best(), tolerances); }, ranking);
+  return ranking.best().size() > 0 && is_likely(ranking, ranking.best());
 }
 
 bool StrategyState::readings_will_do(const CandidateRanking& ranking) {
-  return is_likely([&](double tolerances) { return ranking.chance_of_readings(ranking.best(), tolerances); }, ranking);
+  return ranking.best().size() > 0 &&
+         is_enough([&](double tolerances) { return ranking.chance_of_readings(ranking.best(), tolerances); });
 }
 
 double StrategyState::optimisers_goal() const {

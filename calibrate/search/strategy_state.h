@@ -46,7 +46,9 @@ class StrategyState {
 
   /// Ranking by all answers. Requirement: at least one feasible simulation.
   CandidateRanking ranking() const { return {history, refuted}; }
-  /// True if the best candidate is likely enough to be confirmed.
+  /// True if the candidate is likely enough to be confirmed.
+  static bool is_likely(const CandidateRanking& ranking, const UnitPoint& candidate);
+  /// The same for the best one; false if there is none.
   static bool goal_is_met(const CandidateRanking& ranking);
   /// The same without the factor for rejected heaps.
   static bool readings_will_do(const CandidateRanking& ranking);

@@ -74,6 +74,27 @@ TEST_CASE("height and spread of real mixes are met together, each within its tol
   CHECK(campaign.median_simulations() <= 30);
 }
 
+TEST_CASE("with priors on what two readings leave open, every seed recommends nearly the same there", "[campaign]") {
+  constexpr double gap_15_percent = 0.047;  // bounds of 0.05 to 1 R, logarithmic
+  const Heap mix = mixes[1];
+  std::vector<double> gaps;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Synthetic objective = fake_heap(mix.height_mm, mix.spread_mm, seed);
+    objective.known = [](const UnitPoint& x) {
+      std::vector<double> off;
+      for (const int open : {1, 2, 3, 4, 5, 6}) off.push_back((x[open] - 0.5) / 0.15);
+      return off;
+    };
+    const Calibration found = search(objective, options_with(seed));
+    CHECK(found.status == CalibrationStatus::confirmed);
+    gaps.push_back(found.best.point[3]);
+  }
+  std::ranges::sort(gaps);
+  const double median = (gaps[4] + gaps[5]) / 2;
+  const auto agrees = [&](double gap) { return std::abs(gap - median) <= gap_15_percent; };
+  CHECK(std::ranges::count_if(gaps, agrees) >= 9);  // 7 of the first acceptable candidates
+}
+
 TEST_CASE("where some materials stand or shear off by luck, those are confirmed whose packings agree", "[campaign]") {
   const Campaign campaign = search_all({mixes[1], mixes[2]}, brittle_heap);
   INFO("median of simulations " << campaign.median_simulations());
