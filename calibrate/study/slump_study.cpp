@@ -44,7 +44,7 @@ enum class HeapWidth { ordinary, narrow, wide };
 
 /// Narrow heaps are narrower than any heap that slides on its table: with 0.43 to 0.5 of the Abrams cone's height and
 /// 0.67 of a cone's width, only grains that adhere to the table reproduce them, not friction alone. High friction
-/// between the grains reproduces wide ones (tests/results/laws.md).
+/// between the grains reproduces wide ones (tests/results/concretes.md).
 HeapWidth width_of(const SlumpTest& test, std::span<const Measurement> measured) {
   constexpr double narrow = 0.7, low = 0.25, wide = 0.95;
   const auto* height = find_measurement(measured, "step1.height_mm");
