@@ -93,10 +93,15 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
   const bool both = is_there("spread") && (is_there("slump") || is_there("height") ||
                                            (is_there("step1.spread") && is_there("after_drops.spread")));
   ordered_json out = starting_parameters(laws.laws(), both);
-  if (width == HeapWidth::narrow && laws.law == "epa") out["table_cohesion_factor"] = {{"value", 1}};
+  if (width == HeapWidth::narrow && laws.law == "epa") {
+    out["table_cohesion_factor"] = {{"value", 1}};
+    out["table_friction"].erase("prior");  // it is of heaps that slide
+  }
   if (width == HeapWidth::wide && laws.law == "bridge" && both)
     out["friction"] = {{"free", {0.05, 0.8}}, {"scale", "log"}};
-  if (is_there("step2.") && laws.law == "epa") out["friction"] = {{"free", {0.05, 0.3}}, {"scale", "log"}};
+  if (is_there("step2.") && laws.law == "epa")
+    out["friction"] = {
+        {"free", {0.05, 0.3}}, {"scale", "log"}, {"prior", {{"value", 0.15}, {"standard_deviation", 0.06}}}};
   bool timed = false;
   for (const auto& [key, reading] : measurements.items()) timed = timed || key.ends_with("_s");
   if (timed && laws.law == "bridge" && laws.target == "lammps") {

@@ -15,7 +15,8 @@ namespace {
 // 40,000 R^2 Pa; other laws: what the softest admissible grains support (JKR: 4.7 R^2 times surface energy over R;
 // SJKR: the cube of the energy density).
 // Priors: height and spread do not determine a friction, a rolling friction and the range of a bridge besides its
-// strength. They are the middle and a third of the range in which six concretes are reproduced (tests/results/laws.md).
+// strength, nor the friction of the table beside an adhesion ratio. They are the middle and a third of the range in
+// which concretes are reproduced (tests/results/laws.md).
 constexpr std::string_view
     slippery = R"({"free": [0.05, 0.3], "scale": "log", "prior": {"value": 0.15, "standard_deviation": 0.06}})",
     slips = R"({"value": 0.15})", rolls = R"({"free": [0, 0.5], "prior": {"value": 0.25, "standard_deviation": 0.1}})",
@@ -30,8 +31,8 @@ constexpr std::array<StartingParameter, 5> of_epa{{
     {"plasticity_ratio", R"({"value": 0.85})", R"({"value": 0.85})", "share of the deepest overlap that stays"},
     {"friction", R"({"value": 0.05})", R"({"value": 0.05})", "between grains; heaps with more shear off"},
     {"rolling_friction", R"({"value": 0.01})", R"({"value": 0.01})", "between grains"},
-    {"table_friction", R"({"free": [0.02, 0.6], "scale": "log"})", R"({"value": 0.15})",
-     "between grains and table: the less, the wider a heap of its height"},
+    {"table_friction", R"({"free": [0.02, 0.6], "scale": "log", "prior": {"value": 0.1, "standard_deviation": 0.08}})",
+     R"({"value": 0.15})", "between grains and table: the less, the wider a heap of its height"},
 }};
 
 constexpr std::array<StartingParameter, 7> of_bridge{{
