@@ -213,6 +213,7 @@ test("hovering shows a candidate, and so do the arrow keys", async () => {
   const shown = page.locator(".candidate");
   const first = await shown.innerText();
   assert.match(first, /confirmation/, "a confirmed run is shown to begin with");
+  assert.match(first, /Misfit [\d.]+ mm\n/, "the misfit has its unit");
   const dot = plot.locator("g[aria-label=dot]").first().locator("path, circle").first();
   const { x, y, width, height } = (await dot.boundingBox()) ?? assert.fail("there is no dot");
   await page.mouse.move(x + 30, y + 30);

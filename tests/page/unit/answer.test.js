@@ -72,7 +72,7 @@ const contentWith = (part = {}) => ({
     laboratory: {},
     history: [],
     map: null,
-    misfit_unit: "mm",
+    error_unit: "mm",
     misfit_asked: 5,
   },
   ...part,

@@ -63,7 +63,7 @@ function numbersOf({ test, values, readings }, { search: { measured }, inference
 export function candidateCard(simulation, content) {
   const { number: place, test, packing, misfit, failure, ended_early: ended } = simulation;
   const { search } = content;
-  const misfitWords = `Misfit ${ended ? "at least " : ""}${number(misfit, 3)} ${search.misfit_unit}`;
+  const misfitWords = `Misfit ${ended ? "at least " : ""}${number(misfit, 3)} ${search.error_unit}`;
   const kind = ` ${kindOf(simulation)}${test ? `, test ${test}` : ""}, packing ${packing}`;
   return element(
     "div",

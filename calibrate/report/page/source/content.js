@@ -174,7 +174,7 @@
  * @property {number} wall_s
  * @property {Record<string, number>} measured readings of all tests
  * @property {Record<string, Length[]>} laboratory by test, of its last drawing that has them: the lengths measured
- * @property {string} [misfit_unit]
+ * @property {string} [error_unit]
  * @property {number} [misfit_asked]
  * @property {string} [strategy]
  * @property {string} [reason]

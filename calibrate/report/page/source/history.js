@@ -29,7 +29,7 @@ function allowedMarks(asked) {
  * @param {Search} search
  * @param {number} width
  */
-function historyPlot(points, { misfit_asked: asked, misfit_unit: unit = "tolerances" }, width) {
+function historyPlot(points, { misfit_asked: asked, error_unit: unit = "tolerances" }, width) {
   const pointed = Plot.pointer({ x: "number", y: "at", maxRadius: 40 });
   return plot(width, {
     className: "history",

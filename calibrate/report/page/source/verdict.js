@@ -40,7 +40,7 @@ export function verdictKind({ verdict, under_way }) {
 export function facts({ verdict, search, parameters = [], interval_level: level = 0 }) {
   /** @type {[string, string][]} */
   const list = [];
-  const { misfit_asked: asked = NaN, misfit_unit: unit = "", history } = search;
+  const { misfit_asked: asked = NaN, error_unit: unit = "", history } = search;
   if (verdict) {
     const allowed = `largest difference from the laboratory; allowed: ${number(asked, 3)}`;
     list.push([`${number(verdict.misfit * asked, 3)} ${unit}`, allowed]);
