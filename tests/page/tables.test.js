@@ -1,0 +1,50 @@
+// The tables of a page and the small pictures among them, in a browser: node --test tables.test.js, with
+//   PASTEFIT_PAGE   the page of a calibration that ended
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { after, before, test } from "node:test";
+import { contentOf, openBrowser, openPage } from "./browser.js";
+
+const { PASTEFIT_PAGE: file = "" } = process.env;
+/** @type {import("playwright-core").Browser} */
+let browser;
+/** @type {import("./browser.js").OpenedPage} */
+let page;
+
+before(async () => {
+  browser = await openBrowser();
+  page = await openPage(browser, file);
+  await page.locator("h1").waitFor();
+});
+after(async () => browser.close());
+
+test("the numbers to type in are copied, and saved as CSV, as the table shows them", async () => {
+  const { type_in: groups } = await contentOf(page);
+  const values = groups.flatMap(({ rows }) => rows.map(({ quantity, value }) => `${quantity} ${value}`));
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await page.getByRole("button", { name: "Copy the table" }).press("Enter");
+  await page.locator("#type-in [role=status]").filter({ hasText: "Copied" }).waitFor();
+  const copied = await page.evaluate(() => navigator.clipboard.readText());
+  const rows = copied.trimEnd().split("\n").slice(1);
+  assert.deepEqual(
+    rows.map((row) => row.split("\t").slice(1, 3).join(" ")),
+    values,
+  );
+  const saved = page.waitForEvent("download");
+  await page.getByRole("link", { name: "Save as CSV" }).click();
+  const csv = await saved;
+  assert.equal(csv.suggestedFilename(), "numbers-to-type-in.csv");
+  const lines = readFileSync(await csv.path(), "utf8")
+    .trimEnd()
+    .split("\r\n");
+  assert.equal(lines.length, 1 + values.length);
+});
+
+test("without a clipboard the table to type in is selected, to be copied by hand", async () => {
+  const other = await openPage(browser, file, {}, (one) =>
+    one.addInitScript(() => Object.defineProperty(navigator, "clipboard", { value: undefined })),
+  );
+  await other.getByRole("button", { name: "Copy the table" }).click();
+  assert.match(await other.evaluate(() => String(getSelection())), /sliding friction\t/);
+  await other.context().close();
+});
