@@ -10,6 +10,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { contentOf, drawn, filmIsThere, openBrowser, openPage, pixels, withoutWebGL } from "./browser.js";
 import { words } from "../../calibrate/report/page/source/names.js";
+import { inWords } from "../../calibrate/report/page/source/sentences.js";
 import { drawTest, grow, processorSeconds, shareHidden } from "./grown.js";
 
 /** @typedef {import("./browser.js").OpenedPage} OpenedPage */
@@ -291,7 +292,7 @@ test("on paper the page begins with one sheet to hand over, with answer and numb
   assert.equal(await paper.locator("#certificate").isVisible(), false, "on a screen there is none");
   const { first, rest, sheets } = await printed("print", paper);
   assert.ok(first <= sheet.height, `the certificate is ${first} pixels high, a sheet ${sheet.height}`);
-  const [content, certificate] = [await contentOf(paper), await paper.locator("#certificate").innerText()];
+  const [content, certificate] = [inWords(await contentOf(paper)), await paper.locator("#certificate").innerText()];
   const wanted = [
     `NOT CONFIRMED: ${content.verdict.unconfirmed}`,
     content.title,

@@ -48,3 +48,17 @@ test("without a clipboard the table to type in is selected, to be copied by hand
   assert.match(await other.evaluate(() => String(getSelection())), /sliding friction\t/);
   await other.context().close();
 });
+
+test("no part of the page but commands, files and the terminal's words names a parameter by its key", async () => {
+  const { parameters } = await contentOf(page);
+  const keys = parameters.map(({ name }) => name).filter((name) => name.includes("_"));
+  const named = await page.evaluate((names) => {
+    const shown = /** @type {HTMLElement} */ (document.getElementById("page")?.cloneNode(true));
+    for (const one of shown.querySelectorAll("code, #provenance")) one.remove();
+    return names.filter((name) => shown.textContent?.includes(name));
+  }, keys);
+  assert.deepEqual(named, []);
+  const heads = await page.locator("#parameters tbody th").allInnerTexts();
+  assert.match(heads[0], /^strength \[Pa\]\n.*\nin files: strength_pa$/);
+  assert.match(await page.locator("#verdict").innerText(), /strength [\d.e]+ Pa/);
+});

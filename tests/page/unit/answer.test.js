@@ -153,7 +153,7 @@ test("each reading is met, missed or predicted, and parameters are fitted or ope
   const tests = [testWith({ readings }), testWith({ name: "held", hold_out: true })];
   const content = contentWith({ verdict: verdictWith(), tests, parameters, interval_level: 0.95 });
   assert.deepEqual(answerLines(content), [
-    ["Fitted", ["strength_pa 5330 (95 %: 4000 to 7000)"]],
+    ["Fitted", ["strength 5330 Pa (95 %: 4000 to 7000)"]],
     ["Met", ["step 1, height 152.0 \u00b1 1.0 mm, measured 150.0 \u00b1 7.5"]],
     ["Missed", ["step 1, spread 152.0 \u00b1 1.0 mm, measured 300.0 \u00b1 7.5"]],
     [

@@ -1,12 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fullName, unitOf, words, wordsAndUnit } from "../../../calibrate/report/page/source/names.js";
+import { fullName, unitOf, withUnit, words, wordsAndUnit } from "../../../calibrate/report/page/source/names.js";
 
 test("the unit of a name is what it ends with", () => {
   assert.equal(unitOf("step1.height_mm"), "mm");
   assert.equal(unitOf("shear.stress_pa"), "Pa");
   assert.equal(unitOf("fill.mass_kg"), "kg");
   assert.equal(unitOf("tilted.spin_rad_s"), "rad/s");
+  assert.equal(unitOf("viscosity_pa_s"), "Pa s");
+  assert.equal(unitOf("step1.angle_of_repose_deg"), "\u00b0");
   assert.equal(unitOf("friction"), "");
 });
 
@@ -20,6 +22,19 @@ test("words of a name have no unit, underscore or dot", () => {
   assert.equal(words("tilted.rebound_height_mm"), "tilted, rebound height");
   assert.equal(words("pellet.dynamic_yield_strength_pa"), "pellet, dynamic yield strength");
   assert.equal(words("step12.height_mm"), "step 12, height");
+});
+
+test("a parameter is called what people call it", () => {
+  const names = ["strength_pa", "youngs_modulus_pa", "poissons_ratio", "pull_off_pa", "mould_rolling_friction"];
+  assert.deepEqual(names.map(wordsAndUnit), [
+    "strength [Pa]",
+    "Young's modulus [Pa]",
+    "Poisson's ratio",
+    "pull-off [Pa]",
+    "mould rolling friction",
+  ]);
+  assert.equal(withUnit("3.2", "viscosity_pa_s"), "3.2 Pa s");
+  assert.equal(withUnit("0.3", "friction"), "0.3");
 });
 
 test("a unit stands in brackets behind the words, where there is one", () => {

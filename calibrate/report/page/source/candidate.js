@@ -1,6 +1,6 @@
 // One simulation of the search, as small pictures and numbers.
 import { element, pairs } from "./dom.js";
-import { fullName, unitOf, words } from "./names.js";
+import { fullName, withUnit, words } from "./names.js";
 import { number, plusMinus } from "./numbers.js";
 import { isFree, shareOf } from "./parameters.js";
 import { kindOf } from "./simulation.js";
@@ -45,12 +45,12 @@ function picture({ values }, { parameters = [] }) {
 function numbersOf({ test, values, readings }, { search: { measured }, inference }) {
   const anyMeasured = Object.keys(measured).length > 0;
   /** @type {[string, string][]} */
-  const rows = Object.entries(values).map(([name, value]) => [name, number(value)]);
+  const rows = Object.entries(values).map(([name, value]) => [words(name), withUnit(number(value), name)]);
   for (const [name, value] of Object.entries(readings)) {
     const full = fullName(test, name);
     const known = measured[full];
     if (anyMeasured && known === undefined) continue;
-    const told = `${plusMinus(value, inference?.noise?.[full])} ${unitOf(name)}`;
+    const told = withUnit(plusMinus(value, inference?.noise?.[full]), name);
     rows.push([words(name), known === undefined ? told : `${told} (${number(known)})`]);
   }
   return rows;

@@ -7,6 +7,7 @@ import { parametersPart } from "./parameters.js";
 import { provenancePart } from "./provenance.js";
 import { readingsPart } from "./readings.js";
 import { searchPart } from "./search.js";
+import { inWords } from "./sentences.js";
 import { testsPart } from "./tests.js";
 import { typeInPart } from "./type_in.js";
 import { missingPart, verdictPart } from "./verdict.js";
@@ -80,7 +81,7 @@ function build(page, content) {
 
 const page = document.getElementById("page") ?? document.body;
 try {
-  build(page, JSON.parse(document.getElementById("content")?.textContent ?? ""));
+  build(page, inWords(JSON.parse(document.getElementById("content")?.textContent ?? "")));
 } catch (error) {
   console.error(error);
   page.replaceChildren(element("p", { class: "notice" }, `The content of this page cannot be read: ${saidBy(error)}`));

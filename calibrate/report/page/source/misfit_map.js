@@ -1,4 +1,5 @@
 // The predicted misfit over two parameters, as fields of colour.
+import { withUnit, words, wordsAndUnit } from "./names.js";
 import { number } from "./numbers.js";
 import { colour, plot, Plot, tip } from "./plots.js";
 
@@ -24,7 +25,7 @@ export function edgesOf({ scale, places }) {
  */
 function scaleOf({ name, scale, lower, upper }) {
   const tickFormat = scale === "log" ? "~g" : undefined;
-  return { label: name, type: scale, domain: [lower, upper], tickFormat, nice: false, grid: false };
+  return { label: wordsAndUnit(name), type: scale, domain: [lower, upper], tickFormat, nice: false, grid: false };
 }
 
 /**
@@ -49,10 +50,10 @@ export function mapPlot(map, width) {
   const { x, y, equivalent, simulated } = map;
   const fields = fieldsOf(map);
   const ends = { x1: "x1", x2: "x2", y1: "y1", y2: "y2" };
+  /** @type {(axis: MapAxis, value: number) => string} */
+  const at = ({ name }, value) => `${words(name)} ${withUnit(number(value, 3), name)}`;
   /** @param {typeof fields[number]} field */
-  const title = (field) =>
-    `${number(field.value, 2)} standard deviations\n` +
-    `${x.name} ${number(field.x, 3)}\n${y.name} ${number(field.y, 3)}`;
+  const title = (field) => `${number(field.value, 2)} standard deviations\n${at(x, field.x)}\n${at(y, field.y)}`;
   const edge = { stroke: "var(--page)" };
   return plot(width, {
     className: "map",

@@ -1,6 +1,7 @@
 // Names of readings and parameters as people read them. A unit stands at the end of a name.
 
 const units = new Map([
+  ["_pa_s", "Pa s"],
   ["_mm", "mm"],
   ["_pa", "Pa"],
   ["_kg", "kg"],
@@ -8,7 +9,15 @@ const units = new Map([
   ["_rad_s", "rad/s"],
   ["_s", "s"],
   ["_n", "N"],
+  ["_deg", "\u00b0"],
 ]);
+
+/** @type {[key: RegExp, words: string][]} keys that lack what their words have */
+const spelled = [
+  [/\byoungs_/, "Young's_"],
+  [/\bpoissons_/, "Poisson's_"],
+  [/\bpull_off\b/, "pull-off"],
+];
 
 /** @param {string} name */
 const unitEnd = (name) => [...units.keys()].find((end) => name.endsWith(end)) ?? "";
@@ -35,12 +44,22 @@ export function fullName(test, reading) {
  * @param {string} name
  */
 export function words(name) {
-  return name
-    .slice(0, name.length - unitEnd(name).length)
+  const bare = name.slice(0, name.length - unitEnd(name).length);
+  return spelled
+    .reduce((text, [key, own]) => text.replace(key, own), bare)
     .replace("/", ": ")
     .replace(/([a-z])(\d+)\./, "$1 $2, ")
     .replace(/\./g, ", ")
     .replace(/_/g, " ");
+}
+
+/**
+ * A value with the unit of its name behind it.
+ * @param {string} value
+ * @param {string} name
+ */
+export function withUnit(value, name) {
+  return `${value} ${unitOf(name)}`.trimEnd();
 }
 
 /**

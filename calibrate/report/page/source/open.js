@@ -1,7 +1,7 @@
 // What the readings leave open: the misfit over two parameters, and the materials that meet them as well.
 import { element, figure, section, table } from "./dom.js";
 import { levelLegend, mapPlot } from "./misfit_map.js";
-import { fullName, wordsAndUnit } from "./names.js";
+import { fullName, words, wordsAndUnit } from "./names.js";
 import { atNoise, number, plusMinus } from "./numbers.js";
 import { legend } from "./plots.js";
 import { isMeasured } from "./readings.js";
@@ -22,12 +22,6 @@ function measuredOf(tests, name) {
   return "";
 }
 
-/**
- * With places where a name may be broken.
- * @param {string} name
- */
-const broken = (name) => name.replace(/[_.]/g, "$&\u200b");
-
 /** @param {string[]} texts */
 const numberCells = (texts) => texts.map((text) => element("td", { class: "number" }, text));
 
@@ -43,7 +37,7 @@ function familyTable(family, noise, tests) {
   if (family.length === 0) return null;
   const names = Object.keys(family[0].values);
   const readings = Object.keys(family[0].readings);
-  const heads = numberHeads([...names.map(broken), ...readings.map(wordsAndUnit)]);
+  const heads = numberHeads([...names, ...readings].map(wordsAndUnit));
   const laboratory = element("th", { colspan: names.length, scope: "row" }, "Laboratory");
   const measured = numberCells(readings.map((name) => measuredOf(tests, name)));
   const rows = family.map(({ values, readings: told, simulated }) => {
@@ -67,7 +61,8 @@ function familyTable(family, noise, tests) {
 
 /** @param {MisfitMap} map */
 function mapFigure(map) {
-  const heading = `Predicted misfit over ${map.x.name} and ${map.y.name}, the other parameters as recommended`;
+  const axes = `${words(map.x.name)} and ${words(map.y.name)}`;
+  const heading = `Predicted misfit over ${axes}, the other parameters as recommended`;
   const signs = legend([
     ...levelLegend(),
     ["recommended", "mark star"],

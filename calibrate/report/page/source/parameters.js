@@ -1,5 +1,6 @@
 // The fitted parameters with their intervals, and the fixed ones.
 import { element, pairs, section, table } from "./dom.js";
+import { withUnit, words, wordsAndUnit } from "./names.js";
 import { number } from "./numbers.js";
 import { svgElement, svgLine, svgPicture } from "./svg.js";
 
@@ -72,11 +73,25 @@ function row(one, level) {
   return element(
     "tr",
     {},
-    element("th", { scope: "row" }, one.name, element("small", {}, one.meaning)),
+    element(
+      "th",
+      { scope: "row" },
+      wordsAndUnit(one.name),
+      element("small", {}, one.meaning),
+      element("small", {}, "in files: ", element("code", {}, one.name)),
+    ),
     element("td", { class: "number" }, number(one.value)),
     element("td", {}, intervalWords(one, level)),
     element("td", {}, bar(one), element("small", { class: "ends" }, ...ends)),
   );
+}
+
+/**
+ * With the key that files know it by.
+ * @param {Parameter} parameter
+ */
+function fixedValue({ name, value }) {
+  return [withUnit(number(value), name), element("small", {}, element("code", {}, name))];
 }
 
 /** @param {import("./content.js").CardContent} content */
@@ -102,7 +117,7 @@ export function parametersPart({ parameters, interval_level: level, radius_mm: r
       "details",
       {},
       element("summary", {}, `${fixed.length} fixed parameters`),
-      pairs(fixed.map((one) => [element("span", { title: one.meaning }, one.name), number(one.value)])),
+      pairs(fixed.map((one) => [element("span", { title: one.meaning }, words(one.name)), fixedValue(one)])),
     ),
   );
 }

@@ -1,6 +1,6 @@
 // A reading of all simulations against a parameter, both of the reader's choice.
 import { choice, element, figure } from "./dom.js";
-import { fullName, unitOf, words, wordsAndUnit } from "./names.js";
+import { fullName, withUnit, words, wordsAndUnit } from "./names.js";
 import { number, plusMinus } from "./numbers.js";
 import { colour, plot, Plot, tip } from "./plots.js";
 import { dots, readingsOf } from "./simulation.js";
@@ -61,12 +61,17 @@ function scatterPlot(simulations, parameter, reading, content, width) {
   const y = (one) => readingsOf(one).get(reading);
   /** @param {Simulation} one */
   const title = (one) =>
-    `simulation ${one.number}${one.ended_early ? ", ended early" : ""}\n${parameter} ${number(x(one))}\n` +
-    `${words(reading)} ${plusMinus(y(one) ?? NaN, noise)} ${unitOf(reading)}`;
+    `simulation ${one.number}${one.ended_early ? ", ended early" : ""}\n` +
+    `${words(parameter)} ${withUnit(number(x(one)), parameter)}\n` +
+    `${words(reading)} ${withUnit(plusMinus(y(one) ?? NaN, noise), reading)}`;
   const known = simulations.filter((one) => y(one) !== undefined);
   return plot(width, {
     className: "scatter",
-    x: { label: parameter, type: logarithmic ? "log" : "linear", tickFormat: logarithmic ? "~g" : undefined },
+    x: {
+      label: wordsAndUnit(parameter),
+      type: logarithmic ? "log" : "linear",
+      tickFormat: logarithmic ? "~g" : undefined,
+    },
     y: { label: wordsAndUnit(reading) },
     marks: [...laboratoryMarks(content, reading), ...dots(known, x, y), tip(known, { x, y, title })],
   });
@@ -83,7 +88,7 @@ export function scatterFigure(content) {
   const made = figure({}, (width) => scatterPlot(done, parameter, reading, content, width));
   const ofParameters = choice(
     "Parameter",
-    parameters.map((name) => [name, name]),
+    parameters.map((name) => [name, words(name)]),
     parameter,
     (name) => {
       parameter = name;

@@ -1,6 +1,6 @@
 // What the calibration answers, on top of everything.
 import { element, pairs } from "./dom.js";
-import { fullName, unitOf, words } from "./names.js";
+import { fullName, unitOf, withUnit, words } from "./names.js";
 import { duration, errorWords, number, plusMinus } from "./numbers.js";
 import { endsInWords } from "./parameters.js";
 import { isMeasured } from "./readings.js";
@@ -63,7 +63,7 @@ export function facts({ verdict, search, parameters = [], interval_level: level 
 }
 
 /** @param {Parameter} parameter */
-const withValue = ({ name, value }) => `${name} ${number(value)}`;
+const withValue = ({ name, value }) => `${words(name)} ${withUnit(number(value), name)}`;
 
 /**
  * @param {Parameter} parameter
