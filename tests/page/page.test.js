@@ -8,7 +8,7 @@ import assert from "node:assert/strict";
 import { copyFileSync, existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { contentOf, drawn, filmIsThere, openBrowser, openPage, pixels, withoutWebGL } from "./browser.js";
+import { contentOf, drawn, filmIsThere, openBrowser, openPage, pixels } from "./browser.js";
 import { words } from "../../calibrate/report/page/source/names.js";
 import { inWords } from "../../calibrate/report/page/source/sentences.js";
 import { drawTest, grow, processorSeconds, shareHidden } from "./grown.js";
@@ -43,14 +43,6 @@ test("the page loads without a fault, and asks nothing of a network", async () =
     [page.own],
   );
   assert.equal(await page.locator(".notice").filter({ hasText: "could not be drawn" }).count(), 0);
-});
-
-test("without WebGL the page says so in place of the film, and shows the rest", async () => {
-  const other = await openPage(browser, file, {}, withoutWebGL);
-  await other.locator(".notice").filter({ hasText: "The film cannot be shown here" }).waitFor();
-  assert.equal(await other.locator("canvas.stage").count(), 0);
-  assert.ok((await other.locator(".readings tbody tr").count()) > 0);
-  await other.context().close();
 });
 
 test("a request that somebody puts into the page is refused", async () => {

@@ -1,11 +1,13 @@
-// The tables of a page and the small pictures among them, in a browser: node --test tables.test.js, with
+// The tables of a page and its still pictures, in a browser: node --test tables.test.js, with
 //   PASTEFIT_PAGE   the page of a calibration that ended
+//   PASTEFIT_SHOTS  a folder for pictures, to be looked at by a person
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { contentOf, openBrowser, openPage } from "./browser.js";
+import { contentOf, openBrowser, openPage, withoutWebGL } from "./browser.js";
 
-const { PASTEFIT_PAGE: file = "" } = process.env;
+const { PASTEFIT_PAGE: file = "", PASTEFIT_SHOTS: shots = "" } = process.env;
 /** @type {import("playwright-core").Browser} */
 let browser;
 /** @type {import("./browser.js").OpenedPage} */
@@ -61,4 +63,26 @@ test("no part of the page but commands, files and the terminal's words names a p
   const heads = await page.locator("#parameters tbody th").allInnerTexts();
   assert.match(heads[0], /^strength \[Pa\]\n.*\nin files: strength_pa$/);
   assert.match(await page.locator("#verdict").innerText(), /strength [\d.e]+ Pa/);
+});
+
+test("without WebGL the page says so, shows the heap in a still picture, and the rest", async () => {
+  const other = await openPage(browser, file, {}, withoutWebGL);
+  await other.locator(".notice").filter({ hasText: "The film cannot be shown here" }).waitFor();
+  assert.equal(await other.locator("canvas.stage").count(), 0);
+  await other.locator("canvas.still").waitFor();
+  const shown = await other.locator("canvas.still").evaluate((canvas) => {
+    const { width, height } = /** @type {HTMLCanvasElement} */ (canvas);
+    const pen = /** @type {HTMLCanvasElement} */ (canvas).getContext("2d");
+    const bytes = pen?.getImageData(0, 0, width, height).data.buffer ?? new ArrayBuffer(0);
+    const pixels = [...new Uint32Array(bytes)];
+    return { colours: new Set(pixels).size, drawn: pixels.filter((one) => one !== 0).length / pixels.length };
+  });
+  assert.ok(shown.colours > 50 && shown.drawn > 0.1, JSON.stringify(shown));
+  if (shots)
+    await other
+      .locator(".player")
+      .first()
+      .screenshot({ path: join(shots, "still.png") });
+  assert.ok((await other.locator(".readings tbody tr").count()) > 0);
+  await other.context().close();
 });

@@ -4,6 +4,7 @@ import { Film, speedOf } from "./film.js";
 import { rampColour } from "./grains.js";
 import { number } from "./numbers.js";
 import { Scene } from "./scene.js";
+import { stillPicture } from "./still.js";
 
 /**
  * Words for the phases of a run: "step1.rest" -> "step 1: rest".
@@ -54,7 +55,7 @@ export class Player {
       "aria-label": "The grains of the confirmed run in three dimensions. Arrow keys turn, space plays.",
     });
     this.canvas.addEventListener("webglcontextlost", () =>
-      place.replaceChildren(notShown("the browser has lost WebGL")),
+      place.replaceChildren(...inPlaceOf(film, "the browser has lost WebGL")),
     );
     this.scene = new Scene(this.canvas, film);
     this.button = element("button", { type: "button", class: "play", onclick: () => this.toggle() }, "\u25b6 Play");
@@ -172,6 +173,12 @@ export class Player {
 const notShown = (why) => element("p", { class: "notice" }, `The film cannot be shown here: ${why}`);
 
 /**
+ * @param {Film} film
+ * @param {string} why it cannot be shown
+ */
+const inPlaceOf = (film, why) => [notShown(why), stillPicture(film)].filter((one) => one !== null);
+
+/**
  * The film of a test. What the browser cannot show is said instead.
  * @param {import("./content.js").FilmIndex} index
  * @param {string} text its bytes
@@ -179,7 +186,13 @@ const notShown = (why) => element("p", { class: "notice" }, `The film cannot be 
 export function filmPlayer(index, text) {
   const place = element("div", { class: "player" });
   Film.read(index, text)
-    .then((film) => new Player(film, place))
+    .then((film) => {
+      try {
+        return new Player(film, place);
+      } catch (error) {
+        return place.replaceChildren(...inPlaceOf(film, error instanceof Error ? error.message : String(error)));
+      }
+    })
     .catch((error) => place.replaceChildren(notShown(error.message)));
   return place;
 }
