@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <system_error>
 
 #include "calibrate/base/text.h"
@@ -39,7 +40,16 @@ ordered_json sheared_share_of(const Card& card) {
   return static_cast<double>(std::ranges::count(rejected, true)) / static_cast<double>(runs);
 }
 
+/// Whether each held-out test was predicted; nothing without one that was judged.
+ordered_json prediction_of(const Card& card) {
+  std::string out;
+  for (const CardTest& test : card.tests)
+    if (test.within_noise) out += (out.empty() ? "" : "; ") + hold_out_in_words(test);
+  return out.empty() ? ordered_json() : ordered_json(out);
+}
+
 ordered_json laboratory_columns(const Study& study) {
+  if (study.tests.empty()) return ordered_json::object();
   ordered_json out{{"material.bulk_density_kg_m3", specimen_of(study.tests.front().lab.test).bulk_density_kg_m3}};
   for (const StudyTest& test : study.tests)
     for (const MixVariable& one : test.lab.mix) out.emplace("mix." + one.name, one.value);
@@ -128,24 +138,23 @@ void see_cells(const BatchRow& row, const std::array<std::vector<std::string>, 5
       see(name, row.columns[part].contains(name) ? row.columns[part][name] : ordered_json());
 }
 
-}  // namespace
-
-BatchRow row_of(const BatchStudy& one) {
+BatchRow row_with(const BatchStudy& one, const std::optional<BatchFailure>& failure, const std::optional<Card>& card) {
   BatchRow row{one.name, "pending", "", 0, {}};
   auto& [whole, laboratory, readings, parameters, made_by] = row.columns;
   std::error_code error;
   if (std::filesystem::exists(one.folder / kStore, error)) row.verdict = "unfinished";
-  ordered_json spent = spent_on(one), program = "", error_of_card, sheared_share;
+  ordered_json spent = spent_on(one), program = "", error_of_card, sheared_share, prediction;
   laboratory = laboratory_columns(one.study);
-  if (const auto failure = read_failure(one)) {
+  if (failure) {
     row.verdict = failure->status;
     row.reasons = failure->reason;
-  } else if (const auto card = card_of_batch(one)) {
+  } else if (card) {
     row.verdict = card->search.status;
     row.reasons = reasons_of(*card);
     row.error = card->confirmation.error;
     error_of_card = row.error;
     sheared_share = sheared_share_of(*card);
+    prediction = prediction_of(*card);
     spent["simulations"] = card->search.simulations;
     spent["coarse_simulations"] = card->search.coarse_simulations;
     program = card->provenance.program;
@@ -160,8 +169,40 @@ BatchRow row_of(const BatchStudy& one) {
   whole.update(spent);
   whole["misfit_tolerances"] = error_of_card;
   whole["sheared_share"] = sheared_share;
+  whole["prediction"] = prediction;
   made_by["program"] = program;
   return row;
+}
+
+}  // namespace
+
+BatchRow row_of(const BatchStudy& one) {
+  return row_with(one, read_failure(one), card_of_batch(one));
+}
+
+std::vector<BatchRow> rows_in(const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto holds = [&](const std::filesystem::path& place) {
+    return std::ranges::any_of(std::array{kCardFile, kStore, kFailureFile},
+                               [&](const std::string& name) { return std::filesystem::exists(place / name, error); });
+  };
+  std::vector<BatchRow> rows;
+  if (holds(folder)) return rows;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (!entry.is_directory(error) || !holds(entry.path())) continue;
+    BatchStudy one{entry.path().filename().string(), {}, entry.path(), {}};
+    auto failure = read_failure(one);
+    std::optional<Card> card;
+    if (auto read = read_card(entry.path() / kCardFile); read.ok()) {
+      card = std::move(read).value();
+      one.study = study_of(*card);
+    } else if (std::filesystem::exists(entry.path() / kCardFile, error)) {
+      failure = {"failed", "its card is damaged"};
+    }
+    rows.push_back(row_with(one, failure, card));
+  }
+  std::ranges::sort(rows, {}, &BatchRow::study);
+  return rows;
 }
 
 std::string batch_csv(const std::vector<BatchRow>& rows) {
@@ -192,6 +233,7 @@ constexpr const char* kStyle = R"(
   --good: #00694d; --bad: #a63c00; --open: #6d5600; --laboratory: #c14d00; --simulation: #0068ad; }
 @media (prefers-color-scheme: dark) { :root { --page: #14181c; --text: #e4e8eb; --soft: #a2adb7; --rule: #343c44;
   --good: #58d3ad; --bad: #ff9e66; --open: #e7cd6b; --laboratory: #ff9a4d; --simulation: #5cb8f5; } }
+h1 { overflow-wrap: anywhere; }
 body { font: 1rem/1.45 system-ui, sans-serif; background: var(--page); color: var(--text); margin: 1.5rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 0.94rem; }
@@ -241,7 +283,7 @@ std::string count_of(const std::vector<BatchRow>& rows) {
 
 }  // namespace
 
-std::string batch_page(const std::vector<BatchRow>& rows) {
+std::string batch_page(const std::vector<BatchRow>& rows, const std::string& heading) {
   std::vector<BatchRow> sorted = rows;
   std::ranges::stable_sort(sorted, {}, [](const BatchRow& row) { return std::pair(rank_of(row), -row.error); });
   const auto columns = columns_of(rows);
@@ -257,8 +299,9 @@ std::string batch_page(const std::vector<BatchRow>& rows) {
   }
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width\"><title>pastefit: batch</title>\n<style>" +
-         std::string(kStyle) + "</style></head>\n<body><h1>Batch</h1>\n<p>" + xml_text(count_of(rows)) +
+         "<meta name=\"viewport\" content=\"width=device-width\"><title>pastefit: " +
+         xml_text(one_line(heading)) + "</title>\n<style>" + std::string(kStyle) + "</style></head>\n<body><h1>" +
+         xml_text(one_line(heading)) + "</h1>\n<p>" + xml_text(count_of(rows)) +
          " Materials that are not confirmed come first. Units are in the names of the columns.</p>\n"
          "<div class=\"wide\"><table><thead><tr>" +
          head + "</tr></thead>\n<tbody>\n" + body + "</tbody></table></div></body></html>\n";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -25,11 +26,15 @@ struct BatchRow {
 /// Reads a study's folder. A missing or damaged folder is a verdict, too.
 BatchRow row_of(const BatchStudy& one);
 
+/// A row for each folder of a calibration in a folder, ordered by name, as `batch` and `calibrate --seeds` write them.
+/// Empty if there is none, or if the folder itself is one of a calibration.
+std::vector<BatchRow> rows_in(const std::filesystem::path& folder);
+
 /// Table as comma-separated values, one row per study in the given order. Missing columns of a study are empty.
 std::string batch_csv(const std::vector<BatchRow>& rows);
 
 /// Table as self-contained HTML page without scripts: worst verdicts first, then largest errors. Each study is a link
 /// to the page in its folder, relative to this page.
-std::string batch_page(const std::vector<BatchRow>& rows);
+std::string batch_page(const std::vector<BatchRow>& rows, const std::string& heading = "Batch");
 
 }  // namespace pastefit

@@ -1,6 +1,8 @@
 #include <memory>
 
+#include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
+#include "calibrate/batch/batch_table.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"
@@ -19,7 +21,16 @@ struct ReportOptions {
   bool quick = false;
 };
 
+/// Page of a folder of calibrations.
+int write_overview(const std::filesystem::path& folder, const std::vector<BatchRow>& rows) {
+  refuse(output_folder_faults("DIR", folder));
+  refuse(write_atomically(folder / kPage, batch_page(rows, "Calibrations in " + folder.string())), kFailed);
+  print("wrote %s\n", (folder / kPage).c_str());
+  return kDone;
+}
+
 int write_report(const ReportOptions& options) {
+  if (const auto rows = rows_in(options.folder); !rows.empty()) return write_overview(options.folder, rows);
   Findings findings = value_or_throw(read_findings(options.folder, kStore));
   const std::filesystem::path folder = options.folder;
   refuse(output_folder_faults("DIR", folder));
@@ -39,7 +50,7 @@ int write_report(const ReportOptions& options) {
 
 Command add_report(CLI::App& verb) {
   const auto options = std::make_shared<ReportOptions>();
-  verb.add_option("DIR", options->folder, "folder of a finished or running calibration")->required();
+  verb.add_option("DIR", options->folder, "folder of a finished or running calibration, or of several")->required();
   verb.add_flag("--quick", options->quick, "do not simulate a missing animation or missing heaps");
   add_threads(verb, options->threads);
   return [options] { return write_report(*options); };

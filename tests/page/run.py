@@ -135,11 +135,17 @@ def make_parts(program, result, work):
     content["tests"][0]["lab"].update(source=HOSTILE, notes=HOSTILE + "<!--", licence="<script>alert(3)</script>")
     (hostile / card).write_text(json.dumps(content))
     report(program, hostile, work / "hostile.html")
+    sheared = part_of(result, work / "7", card, "views.json")
+    content = json.loads((sheared / card).read_text())
+    content["tests"][0]["baseline"]["readings"]["step1.lateral_shift_mm"][0] = 500
+    (sheared / card).write_text(json.dumps(content))
+    report(program, sheared, work / "sheared.html")
     vane = part_of(result, work / "6", card)
     content = json.loads((vane / card).read_text())
     content["tests"][0]["measured_yield_stress_pa"] = {"value": 400, "standard_deviation": 50, "repeats": 3}
     (vane / card).write_text(json.dumps(content))
     report(program, vane, work / "vane.html")
+    pastefit(program, "report", work)  # of these folders: report.html
 
 
 def interrupted(program, study, place):
@@ -232,6 +238,8 @@ def picture_of_map(program, source, work):
 
 
 def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
     need("node", "npm")
     what, *places = sys.argv[1:]
     verbs = {"sources": sources, "bundle": bundle, "browser": browser, "calibrator": calibrator, "module": module,

@@ -1,13 +1,15 @@
 // The tables of a page and its still pictures, in a browser: node --test tables.test.js, with
 //   PASTEFIT_PAGE   the page of a calibration that ended
 //   PASTEFIT_SHOTS  a folder for pictures, to be looked at by a person
+//   PASTEFIT_PARTS  folders of calibrations with report.html of all; sheared.html: one with a heap that sheared off
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { contentOf, openBrowser, openPage, withoutWebGL } from "./browser.js";
 
-const { PASTEFIT_PAGE: file = "", PASTEFIT_SHOTS: shots = "" } = process.env;
+const { PASTEFIT_PAGE: file = "", PASTEFIT_PARTS: parts = "", PASTEFIT_SHOTS: shots = "" } = process.env;
+const card = JSON.parse(readFileSync(join(file, "../card.json"), "utf8"));
 /** @type {import("playwright-core").Browser} */
 let browser;
 /** @type {import("./browser.js").OpenedPage} */
@@ -84,5 +86,28 @@ test("without WebGL the page says so, shows the heap in a still picture, and the
       .first()
       .screenshot({ path: join(shots, "still.png") });
   assert.ok((await other.locator(".readings tbody tr").count()) > 0);
+  await other.context().close();
+});
+
+test("the page of a folder has a row for each calibration, with verdict, sheared share and prediction", async () => {
+  const other = await openPage(browser, join(parts, "report.html"), { viewport: { width: 390, height: 844 } });
+  const heads = await other.locator("thead th").allInnerTexts();
+  for (const head of ["verdict", "sheared_share", "prediction"]) assert.ok(heads.includes(head), head);
+  const cells = await other
+    .locator("tbody tr")
+    .evaluateAll((rows) => rows.map((row) => [...row.children].map((cell) => cell.textContent ?? "")));
+  const rows = new Map(cells.map((texts) => [texts[0], new Map(texts.map((text, k) => [heads[k], text]))]));
+  assert.deepEqual([...rows.keys()].sort(), ["1", "2", "3", "4", "5", "6", "7"]);
+  assert.equal(rows.get("1")?.get("verdict"), card.search.status);
+  assert.equal(rows.get("2")?.get("verdict"), "unfinished", "a store alone");
+  assert.equal(rows.get("3")?.get("verdict"), "failed", "a damaged card");
+  assert.equal(rows.get("1")?.get("sheared_share"), "0");
+  assert.equal(rows.get("7")?.get("sheared_share"), String(1 / card.confirmation.packings.length));
+  assert.equal(rows.get("5")?.get("title"), "</script><script>alert(1)</script><img src=x onerror=alert(2)> &lt;b&gt;");
+  const [wide, window] = await other.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+  assert.ok(wide <= window, `${wide} pixels in a window of ${window}`);
+  await other.getByRole("link", { name: "1", exact: true }).click();
+  await other.locator("#verdict").waitFor();
+  assert.deepEqual(other.faults, []);
   await other.context().close();
 });

@@ -66,6 +66,26 @@ class Report(Desk):
             self.assertAlmostEqual(nearest / value, 1, delta=1e-4)
         self.assertEqual(len(drawn["miss"]), len(drawn["x"]["places"]) * len(drawn["y"]["places"]))
 
+    def test_a_folder_of_calibrations_has_a_page_of_verdicts_sheared_shares_and_predictions(self):
+        card = json.loads(CARD.read_text())
+        fitted = card["tests"][0]
+        card["tests"] = [{**fitted, "name": "fitted"}, {**fitted, "name": "held", "hold_out": True, "within_noise": True}]
+        for name, text in (("seed-1", CARD.read_text()), ("seed-2", json.dumps(card)), ("seed-3", "{")):
+            (self.out / name).mkdir(parents=True)
+            (self.out / name / "card.json").write_text(text)
+        result = run("report", self.out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        page = (self.out / "report.html").read_text()
+        self.assertNotIn("<script", page)
+        heads = re.findall("<th>(.*?)</th>", page)
+        rows = [dict(zip(heads, re.findall("<td.*?>(.*?)</td>", row))) for row in re.findall('<tr class=.*?</tr>', page)]
+        links = [re.search('href="(.*?)"', row["study"]).group(1) for row in rows]
+        self.assertEqual(links, [f"seed-{k}/report.html" for k in (3, 1, 2)])
+        self.assertEqual([row["verdict"] for row in rows], ["failed", "confirmed", "confirmed"])
+        self.assertIn("its card is damaged", rows[0]["reasons"])
+        self.assertEqual([row["sheared_share"] for row in rows[1:]], ["0", "0"])
+        self.assertEqual([row["prediction"] for row in rows[1:]], ["", "held: predicted within the noise of both"])
+
     def test_the_film_holds_every_grain_of_every_frame(self):
         self.calibrates(self.study())
         page = (self.out / "report.html").read_text()
