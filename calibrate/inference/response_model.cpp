@@ -162,6 +162,12 @@ ReadingModel::Prediction ResponseModel::predict(std::size_t reading, const UnitP
   return models_.at(reading).predict(point);
 }
 
+std::optional<ReadingModel::Prediction> ResponseModel::change(std::size_t reading, const UnitPoint& from,
+                                                              const UnitPoint& to) const {
+  if (!trust_->predicts(from) || !trust_->predicts(to)) return std::nullopt;
+  return models_.at(reading).change(from, to);
+}
+
 double ResponseModel::expected(std::size_t reading, const UnitPoint& point) const {
   if (!trust_->predicts(point)) {
     Replicates answers;

@@ -42,6 +42,9 @@ class ResponseModel {
   const TrainingData& training_data() const { return evidence_; }
   /// Mean reading of a candidate, and its predictive variance.
   ReadingModel::Prediction predict(std::size_t reading, const UnitPoint& point) const;
+  /// Change of the mean reading between two candidates (`ReadingModel::change`); nothing where the models are not
+  /// trusted.
+  std::optional<ReadingModel::Prediction> change(std::size_t reading, const UnitPoint& from, const UnitPoint& to) const;
   /// Expected reading: of the model; where that is not trusted, the mean of the candidate's own simulations if there
   /// are any.
   double expected(std::size_t reading, const UnitPoint& point) const;

@@ -201,13 +201,28 @@ double ReadingModel::propagate(const Eigen::MatrixXd& prior, const Eigen::LLT<Ei
 
 ReadingModel::Prediction ReadingModel::predict(const UnitPoint& point) const {
   if (scale_ == 0) return {centre_, 0, Eigen::VectorXd::Zero(std::ssize(rows_))};
-  Eigen::VectorXd covariances(std::ssize(rows_));
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    covariances[static_cast<Eigen::Index>(i)] = covariance(point, place(i));
+  Prediction out = told(covariances(point), covariance(point, point));
+  out.mean += centre_;
+  return out;
+}
+
+ReadingModel::Prediction ReadingModel::change(const UnitPoint& from, const UnitPoint& to) const {
+  if (scale_ == 0) return {0, 0, Eigen::VectorXd::Zero(std::ssize(rows_))};
+  return told(covariances(to) - covariances(from),
+              covariance(to, to) + covariance(from, from) - 2 * covariance(from, to));
+}
+
+Eigen::VectorXd ReadingModel::covariances(const UnitPoint& point) const {
+  Eigen::VectorXd out(std::ssize(rows_));
+  for (std::size_t i = 0; i < rows_.size(); ++i) out[static_cast<Eigen::Index>(i)] = covariance(point, place(i));
+  return out;
+}
+
+ReadingModel::Prediction ReadingModel::told(const Eigen::VectorXd& covariances, double variance) const {
   Prediction out;
   out.weights.noalias() = inverse_ * covariances;
-  out.mean = centre_ + scale_ * covariances.dot(weights_);
-  out.variance = scale_ * scale_ * std::max(0.0, covariance(point, point) - covariances.dot(out.weights));
+  out.mean = scale_ * covariances.dot(weights_);
+  out.variance = scale_ * scale_ * std::max(0.0, variance - covariances.dot(out.weights));
   return out;
 }
 

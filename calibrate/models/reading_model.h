@@ -55,6 +55,9 @@ class ReadingModel {
   ReadingModel(std::span<const UnitPoint> sites, std::span<const Answer> answers);
 
   Prediction predict(const UnitPoint& point) const;
+  /// Change of the mean reading from one point to another. Its variance is smaller than the sum of both: the errors of
+  /// neighbouring points are correlated.
+  Prediction change(const UnitPoint& from, const UnitPoint& to) const;
   /// Standard deviation of one simulation about its mean, where that mean is `mean`.
   double noise_at(double mean) const;
   const std::vector<Row>& rows() const { return rows_; }
@@ -83,6 +86,9 @@ class ReadingModel {
   /// One round of expectation propagation over all bounds; returns the largest relative change of an observation.
   double propagate(const Eigen::MatrixXd& prior, const Eigen::LLT<Eigen::MatrixXd>& cholesky);
   double covariance(const UnitPoint& a, const UnitPoint& b) const;
+  Eigen::VectorXd covariances(const UnitPoint& point) const;  // with the rows
+  /// Of a quantity with these covariances with the rows, this variance before them, and the mean 0.
+  Prediction told(const Eigen::VectorXd& covariances, double variance) const;
   double noise_variance(double mean) const;
   const UnitPoint& place(std::size_t row) const { return sites_[rows_[row].site]; }
 

@@ -299,7 +299,10 @@ ordered_json page_content(const Findings& findings, const std::string& command) 
                          {"program", card.provenance.program}};
   }
   if (!findings.card && findings.study) out["parameters"] = parameters_of(*findings.study);
-  if (findings.inference) out["inference"] = page_inference(*findings.inference);
+  if (findings.inference) {
+    out["inference"] = page_inference(*findings.inference);
+    out["inference"]["sensitivities"] = sensitivities(findings);
+  }
   out["search"] = search_of(findings);
   return out;
 }

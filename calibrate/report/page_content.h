@@ -27,6 +27,12 @@ nlohmann::ordered_json search_history(const Findings& findings);
 /// measurement. Null without inference, or with only one free parameter.
 nlohmann::ordered_json misfit_map(const Findings& findings);
 
+/// Predicted change of each measured reading if one free parameter changes and the others stay as recommended:
+///     [{"parameter", "from", "to", "changes": {reading: [change, its standard deviation]}}].
+/// to: a fifth more, a tenth of the range above 0, or as much less where that is beyond the upper bound. changes: empty
+/// where the readings jump. Null without inference.
+nlohmann::ordered_json sensitivities(const Findings& findings);
+
 /// Force between two grains of the card's size over their overlap, computed by the engine: the fitted law, those of the
 /// equivalent materials, and the other attractions with the same force at touch and rupture gap. [{"name", "role":
 /// "fitted" | "equivalent" | "other", "points": [[overlap_um, force_mn], ...]}], attraction negative.

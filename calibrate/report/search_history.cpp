@@ -102,6 +102,12 @@ std::vector<double> map_places(double recommended) {
   return out;
 }
 
+/// The value that a sensitivity compares with the recommended one.
+double changed(const Parameter& parameter, double value) {
+  const double step = value == 0 ? 0.1 * (parameter.upper - parameter.lower) : 0.2 * std::abs(value);
+  return value + step <= parameter.upper ? value + step : std::max(value - step, parameter.lower);
+}
+
 ordered_json axis_of(const Parameter& parameter, const std::vector<double>& places) {
   ordered_json out{{"name", parameter.name},
                    {"lower", parameter.lower},
@@ -127,6 +133,30 @@ ordered_json search_history(const Findings& findings) {
     if (!evaluation.sketch.points.empty()) point["sketch"] = to_json(evaluation.sketch);
     if (findings.study) judge(findings, evaluation, point);
     out.push_back(std::move(point));
+  }
+  return out;
+}
+
+ordered_json sensitivities(const Findings& findings) {
+  if (!findings.inference || !findings.evidence) return {};
+  const TrainingData& evidence = *findings.evidence;
+  const ResponseModel model(evidence);
+  const UnitPoint from = point_of(*findings.card);
+  auto out = ordered_json::array();
+  for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
+    const Parameter& parameter = evidence.parameters[k];
+    const auto axis = static_cast<Eigen::Index>(k);
+    UnitPoint to = from;
+    const double value = value_between(parameter, from[axis]), other = changed(parameter, value);
+    to[axis] = unit_of(parameter, other);
+    auto changes = ordered_json::object();
+    for (std::size_t i = 0; i < evidence.readings.size(); ++i)
+      if (const auto change = evidence.readings[i].measured ? model.change(i, from, to) : std::nullopt)
+        changes[evidence.readings[i].name] = {rounded(change->mean), rounded(std::sqrt(change->variance), 2)};
+    out.push_back({{"parameter", parameter.name},
+                   {"from", rounded(value)},
+                   {"to", rounded(other)},
+                   {"changes", std::move(changes)}});
   }
   return out;
 }

@@ -1,5 +1,6 @@
 // The tables of a page and its still pictures, in a browser: node --test tables.test.js, with
 //   PASTEFIT_PAGE   the page of a calibration that ended
+//   PASTEFIT_DROP   the page of a drop test
 //   PASTEFIT_SHOTS  a folder for pictures, to be looked at by a person
 //   PASTEFIT_PARTS  folders of calibrations with report.html of all; sheared.html: one with a heap that sheared off
 import assert from "node:assert/strict";
@@ -8,7 +9,12 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { contentOf, openBrowser, openPage, withoutWebGL } from "./browser.js";
 
-const { PASTEFIT_PAGE: file = "", PASTEFIT_PARTS: parts = "", PASTEFIT_SHOTS: shots = "" } = process.env;
+const {
+  PASTEFIT_PAGE: file = "",
+  PASTEFIT_DROP: dropped = "",
+  PASTEFIT_PARTS: parts = "",
+  PASTEFIT_SHOTS: shots = "",
+} = process.env;
 const card = JSON.parse(readFileSync(join(file, "../card.json"), "utf8"));
 /** @type {import("playwright-core").Browser} */
 let browser;
@@ -65,6 +71,29 @@ test("no part of the page but commands, files and the terminal's words names a p
   const heads = await page.locator("#parameters tbody th").allInnerTexts();
   assert.match(heads[0], /^strength \[Pa\]\n.*\nin files: strength_pa$/);
   assert.match(await page.locator("#verdict").innerText(), /strength [\d.e]+ Pa/);
+});
+
+test("a fifth more of each parameter has its effect on each measured reading beside it, with an error", async () => {
+  const { inference } = await contentOf(page);
+  const told = inference?.sensitivities ?? [];
+  assert.ok(told.length > 0);
+  const rows = page.locator(".sensitivities tbody tr");
+  assert.equal(await rows.count(), told.length);
+  const known = told.findIndex(({ changes }) => Object.keys(changes).length > 0);
+  const text = await rows.nth(known).innerText();
+  assert.match(text, /^strength \+20 %\t[\d.e]+ to [\d.e]+ Pa\t[+\u2212]?[\d.]+ \u00b1 [\d.]+ mm$/);
+});
+
+test("a sensitivity is near to what simulations give: a rebound goes with the restitution squared", async () => {
+  const other = await openPage(browser, dropped);
+  const { inference, tests } = await contentOf(other);
+  await other.context().close();
+  const { from, to, changes } =
+    inference?.sensitivities?.find(({ parameter }) => parameter === "restitution") ?? assert.fail("there is none");
+  const height = tests[0].readings.find(({ name }) => name === "level.rebound_height_mm")?.simulated ?? NaN;
+  const [change, deviation] = changes["level.rebound_height_mm"];
+  const expected = height * ((to / from) ** 2 - 1);
+  assert.ok(Math.abs(change - expected) < 3 * deviation, `${change} \u00b1 ${deviation}, ${expected} expected`);
 });
 
 test("without WebGL the page says so, shows the heap in a still picture, and the rest", async () => {

@@ -66,6 +66,22 @@ class Report(Desk):
             self.assertAlmostEqual(nearest / value, 1, delta=1e-4)
         self.assertEqual(len(drawn["miss"]), len(drawn["x"]["places"]) * len(drawn["y"]["places"]))
 
+    def test_the_page_says_what_a_fifth_more_of_each_parameter_does_to_each_measured_reading(self):
+        self.calibrates(self.study(budget=12, screening=6))
+        content = content_of(self.out)
+        measured = content["search"]["measured"].keys()
+        free = {one["name"]: one for one in content["parameters"] if one["free"]}
+        told = content["inference"]["sensitivities"]
+        self.assertEqual([one["parameter"] for one in told], list(free))
+        for one in told:
+            bounds = free[one["parameter"]]
+            self.assertAlmostEqual(one["from"] / bounds["value"], 1, delta=1e-4)
+            self.assertTrue(bounds["lower"] <= one["to"] <= bounds["upper"])
+            self.assertNotEqual(one["to"], one["from"])
+            self.assertLessEqual(one["changes"].keys(), measured)
+            for change, deviation in one["changes"].values():
+                self.assertGreaterEqual(deviation, 0)
+
     def test_a_folder_of_calibrations_has_a_page_of_verdicts_sheared_shares_and_predictions(self):
         card = json.loads(CARD.read_text())
         fitted = card["tests"][0]

@@ -53,6 +53,18 @@ TEST_CASE("a model is nearer to the mean than the noise of one simulation, and k
   CHECK(squares / expected > 0.25);
 }
 
+TEST_CASE("a change between neighbours is known better than the readings of both") {
+  const auto sites = screening_points(2, 30, 1);
+  const ReadingModel model(sites, answers_of(sites, rising, always(4), 1));
+  const UnitPoint from = sites[3], to = from + 0.1 * (UnitPoint(2) << 1 - from[0], 0).finished();
+  const auto change = model.change(from, to);
+  const auto before = model.predict(from), after = model.predict(to);
+  CHECK(change.mean == Approx(after.mean - before.mean));
+  CHECK(std::abs(change.mean - (rising(to) - rising(from))) < 3 * std::sqrt(change.variance));
+  CHECK(change.variance > 0);
+  CHECK(change.variance < before.variance + after.variance);
+}
+
 TEST_CASE("a trend is followed where there are no simulations") {
   std::vector<UnitPoint> sites;
   for (const UnitPoint& point : screening_points(2, 60, 1))

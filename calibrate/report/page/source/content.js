@@ -159,6 +159,15 @@
  * @property {number} simulations
  * @property {Record<string, number>} [noise] of a fitted reading, from packing to packing
  * @property {EquivalentMaterial[]} [family] the first is the recommended one
+ * @property {Sensitivity[] | null} [sensitivities]
+ */
+
+/**
+ * @typedef {object} Sensitivity of the readings to one parameter, the others as recommended
+ * @property {string} parameter
+ * @property {number} from
+ * @property {number} to
+ * @property {Record<string, [change: number, deviation: number]>} changes
  */
 
 /**

@@ -2,6 +2,7 @@
 import { element, pairs, section, table } from "./dom.js";
 import { fullName, wordsAndUnit } from "./names.js";
 import { errorWords, number, plusMinus, plusMinusSigned } from "./numbers.js";
+import { sensitivityTable } from "./sensitivity.js";
 import { packingStrip } from "./strip.js";
 import { yieldStressTable } from "./yield_stress.js";
 
@@ -107,5 +108,5 @@ export function readingsPart({ tests, inference, verdict }) {
         "A difference below it says nothing. Beside the scatter each packing is a dot, and shaded what is allowed."
       : "Simulated values are those of one packing: their error is unknown.";
   const all = tests.flatMap((test) => testReadings(test, inference));
-  return section("readings", "Measured and simulated", lead, ...all);
+  return section("readings", "Measured and simulated", lead, ...all, sensitivityTable(inference));
 }
