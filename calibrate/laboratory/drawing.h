@@ -34,7 +34,8 @@ struct DrawnLine {
   std::string name;
   DrawnBy by = DrawnBy::simulation;
   std::vector<DrawnPoint> points;
-  double deviation = 0;  ///< standard deviation of y, in its unit
+  double deviation = 0;                                 ///< standard deviation of y, in its unit
+  std::optional<std::uint64_t> packing = std::nullopt;  ///< of the line of one run
 };
 
 /// Band between two curves: x, lower and upper end.

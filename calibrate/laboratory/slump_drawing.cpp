@@ -27,12 +27,14 @@ class HeapDrawing {
     for (const std::size_t run : accepted(test, readings)) accepted_.push_back(runs[run]);
     for (const SeenRun& run : runs)
       if (const auto seen = run.outlines.find(step_); seen != run.outlines.end())
-        outlines_.push_back(
-            {&seen->second, std::ranges::find(accepted_, run.packing, &SeenRun::packing) != accepted_.end()});
+        outlines_.push_back({&seen->second, run.packing,
+                             std::ranges::find(accepted_, run.packing, &SeenRun::packing) != accepted_.end(),
+                             is_rejected(test, run.readings)});
     half_width_ = diameter_at_base() / 2;
-    for (const auto& [outline, is_accepted] : outlines_) {
-      const double end = outline->first_x_m + outline->spacing_m * static_cast<double>(outline->height_m.size());
-      half_width_ = std::max({half_width_, -mm * outline->first_x_m, mm * end});
+    for (const Seen& seen : outlines_) {
+      const Outline& outline = *seen.outline;
+      const double end = outline.first_x_m + outline.spacing_m * static_cast<double>(outline.height_m.size());
+      half_width_ = std::max({half_width_, -mm * outline.first_x_m, mm * end});
     }
   }
 
@@ -67,9 +69,10 @@ class HeapDrawing {
   void draw_simulations() {
     if (outlines_.empty()) return;
     for (const Seen& seen : outlines_) {
-      DrawnLine line{seen.accepted ? "simulated, each heap" : "sheared off: a laboratory would repeat the test",
-                     seen.accepted ? DrawnBy::run : DrawnBy::rejected,
+      DrawnLine line{seen.sheared ? "sheared off: a laboratory would repeat the test" : "simulated, each heap",
+                     seen.sheared ? DrawnBy::rejected : DrawnBy::run,
                      {}};
+      line.packing = seen.packing;
       for (double x = -half_width_; x <= half_width_; x += kStep)
         line.points.push_back({x, mm * seen.outline->at(x / mm)});
       drawing_.lines.push_back(std::move(line));
@@ -204,7 +207,9 @@ class HeapDrawing {
   std::span<const Measurement> measured_;
   struct Seen {
     const Outline* outline = nullptr;
-    bool accepted = true;
+    std::uint64_t packing = 0;
+    bool accepted = true;  // enters the mean: not sheared off, or all are
+    bool sheared = false;
   };
   std::vector<Seen> outlines_;  // all runs
   double half_width_ = 0;       // of the drawing [mm]

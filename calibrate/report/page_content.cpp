@@ -119,6 +119,7 @@ ordered_json json_of_drawing(const Drawing& drawing) {
                             {"by", drawn_by(line.by)},
                             {"points", std::move(points)},
                             {"deviation", rounded(line.deviation)}});
+    if (line.packing) out["lines"].back()["packing"] = *line.packing;
   }
   for (const DrawnLength& length : drawing.lengths) out["lengths"].push_back(json_of_length(length));
   return out;

@@ -96,6 +96,23 @@ test("a sensitivity is near to what simulations give: a rebound goes with the re
   assert.ok(Math.abs(change - expected) < 3 * deviation, `${change} \u00b1 ${deviation}, ${expected} expected`);
 });
 
+test("every heap that confirms stands by itself over the measured one, sheared ones marked", async () => {
+  const { verdict } = await contentOf(page);
+  const other = await openPage(browser, join(parts, "sheared.html"));
+  for (const [shown, mark] of /** @type {const} */ ([
+    [page, ""],
+    [other, " \u2717 sheared off"],
+  ])) {
+    const heaps = shown.locator(".heaps").first().locator("li");
+    const said = verdict.packings.map((packing, k) => `packing ${packing}${k === 0 ? mark : ""}`);
+    assert.deepEqual(await heaps.allInnerTexts(), said);
+    assert.equal(await heaps.locator("polyline.own").count(), said.length);
+    assert.equal(await shown.locator(".heaps li:not(:has(.read))").count(), 0, "each with what the laboratory read");
+  }
+  assert.match((await other.locator(".heaps svg").first().getAttribute("aria-label")) ?? "", /sheared off/);
+  await other.context().close();
+});
+
 test("without WebGL the page says so, shows the heap in a still picture, and the rest", async () => {
   const other = await openPage(browser, file, {}, withoutWebGL);
   await other.locator(".notice").filter({ hasText: "The film cannot be shown here" }).waitFor();

@@ -82,6 +82,13 @@ class Report(Desk):
             for change, deviation in one["changes"].values():
                 self.assertGreaterEqual(deviation, 0)
 
+    def test_each_heap_of_a_drawing_names_its_packing(self):
+        self.calibrates(self.study())
+        content = content_of(self.out)
+        lines = content["tests"][0]["drawings"][0]["lines"]
+        drawn = [line["packing"] for line in lines if line["by"] in ("run", "rejected")]
+        self.assertEqual(drawn, content["verdict"]["packings"])
+
     def test_a_folder_of_calibrations_has_a_page_of_verdicts_sheared_shares_and_predictions(self):
         card = json.loads(CARD.read_text())
         fitted = card["tests"][0]

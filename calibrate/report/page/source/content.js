@@ -119,7 +119,14 @@
  * @property {Length[]} lengths
  */
 
-/** @typedef {{name: string, by: DrawnBy, points: Point[], deviation: number}} Line */
+/**
+ * @typedef {object} Line
+ * @property {string} name
+ * @property {DrawnBy} by
+ * @property {Point[]} points
+ * @property {number} deviation
+ * @property {number} [packing] of the line of one run
+ */
 
 /**
  * @typedef {object} Length

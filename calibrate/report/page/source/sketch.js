@@ -36,11 +36,22 @@ export function sketchScale(points, heap) {
 const listed = (places) => places.map((place) => place.map((one) => one.toFixed(1)).join(",")).join(" ");
 
 /**
+ * A line through points of a test, or the area that it encloses.
+ * @param {"polyline" | "polygon"} tag
+ * @param {Point[]} points
+ * @param {(point: Point) => [x: number, y: number]} at
+ * @param {string} kind its class
+ */
+export function sketched(tag, points, at, kind) {
+  return svgElement(tag, { points: listed(points.map(at)), class: kind });
+}
+
+/**
  * What the laboratory read: its first height as a line across, its first width as marks at both ends.
  * @param {Length[]} lengths
  * @param {(point: Point) => [x: number, y: number]} at
  */
-function laboratoryMarks(lengths, at) {
+export function laboratoryMarks(lengths, at) {
   const upright = lengths.find(({ first, last }) => first[0] === last[0]);
   const level = lengths.find(({ first, last }) => first[0] !== last[0]);
   const marks = [];
@@ -70,18 +81,17 @@ export function sketchOf({ sketch, test, number }, { history, laboratory = {} })
   );
   const confirmed = ofTest.find((one) => one.confirmation);
   const measured = heap ? laboratoryMarks(laboratory[test ?? ""] ?? [], at) : [];
-  /** @type {(some: Point[], kind: string) => Element} */
-  const line = (some, kind) => svgElement("polyline", { points: listed(some.map(at)), class: kind });
   const [, ground] = at([0, 0]);
   /** @type {Element[]} */
   const marks = [svgLine([edge, ground], [width - edge, ground], "bounds")];
   if (heap) {
     /** @type {Point[]} */
     const feet = [points[points.length - 1], points[0]].map(([x]) => [x, 0]);
-    marks.push(svgElement("polygon", { points: listed([...points, ...feet].map(at)), class: "heap" }));
+    marks.push(sketched("polygon", [...points, ...feet], at, "heap"));
   }
-  marks.push(line(points, "own"));
-  if (confirmed?.sketch && confirmed.number !== number) marks.push(line(confirmed.sketch.points, "fitted"));
+  marks.push(sketched("polyline", points, at, "own"));
+  if (confirmed?.sketch && confirmed.number !== number)
+    marks.push(sketched("polyline", confirmed.sketch.points, at, "fitted"));
   const label =
     `its ${heap ? "heap from the side" : "curve"}${confirmed ? "; thin: a confirmed one" : ""}` +
     (measured.length > 0 ? "; dashed: the laboratory's height and width" : "");

@@ -1,6 +1,7 @@
 // The tests themselves: film and drawings of each.
 import { element, section } from "./dom.js";
 import { drawingFigure } from "./drawing.js";
+import { heapsSheet } from "./heaps.js";
 import { filmPlayer } from "./player.js";
 
 /** @typedef {import("./content.js").Drawing} Drawing */
@@ -57,7 +58,7 @@ function testPart(test, index) {
     test.name ? element("h3", {}, `Test ${test.name}`) : null,
     test.film && bytes && lasts(test.film) ? filmPlayer(test.film, bytes) : null,
     element("p", { class: "note" }, filmWords(test)),
-    ...drawingsOf(test).map(drawingFigure),
+    ...drawingsOf(test).flatMap((drawing) => [drawingFigure(drawing), heapsSheet(drawing)]),
   ];
 }
 
