@@ -164,12 +164,12 @@ BatchRow row_with(const BatchStudy& one, const std::optional<BatchFailure>& fail
   whole = {{"study", one.name},
            {"title", one.study.title},
            {"verdict", row.verdict},
+           {"misfit_tolerances", error_of_card},
+           {"sheared_share", sheared_share},
+           {"prediction", prediction},
            {"reasons", row.reasons},
            {"seed", one.study.search.seed}};
   whole.update(spent);
-  whole["misfit_tolerances"] = error_of_card;
-  whole["sheared_share"] = sheared_share;
-  whole["prediction"] = prediction;
   made_by["program"] = program;
   return row;
 }
