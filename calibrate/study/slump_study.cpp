@@ -99,9 +99,10 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
   }
   if (width == HeapWidth::wide && laws.law == "bridge" && both)
     out["friction"] = {{"free", {0.05, 0.8}}, {"scale", "log"}};
-  if (is_there("step2.") && laws.law == "epa")
-    out["friction"] = {
-        {"free", {0.05, 0.3}}, {"scale", "log"}, {"prior", {{"value", 0.15}, {"standard_deviation", 0.06}}}};
+  if (is_there("step2.") && laws.law == "epa") {  // five readings determine three parameters
+    out["friction"] = {{"free", {0.05, 0.3}}, {"scale", "log"}};
+    out["table_friction"].erase("prior");
+  }
   bool timed = false;
   for (const auto& [key, reading] : measurements.items()) timed = timed || key.ends_with("_s");
   if (timed && laws.law == "bridge" && laws.target == "lammps") {
