@@ -17,7 +17,7 @@ namespace pastefit {
 
 namespace {
 
-/// False-alarm probability per reading for a heap of the same material.
+/// Probability that any reading of a heap of the same material is called different.
 constexpr double kReadFalseAlarm = 0.05;
 
 /// The scatter of fewer heaps is too uncertain.
@@ -41,7 +41,13 @@ struct HeapReading {
   bool differs() const { return band && !lie_within(*band, read, of_card->simulated); }
 };
 
+/// The false alarms are shared among the readings that scatter.
 std::vector<HeapReading> beside_card(const Readings& readings, const CardTest& test) {
+  const auto scatters = [](const CardReading& one) {
+    return one.packings >= kFewestPackings && one.simulated_standard_deviation > 0;
+  };
+  const auto number = std::max<std::ptrdiff_t>(1, std::ranges::count_if(test.readings, scatters));
+  const double false_alarm = kReadFalseAlarm / static_cast<double>(number);
   std::vector<HeapReading> out;
   for (const Reading& reading : readings.all()) {
     HeapReading one{reading.name, reading.value, nullptr, std::nullopt};
@@ -50,7 +56,7 @@ std::vector<HeapReading> beside_card(const Readings& readings, const CardTest& t
       one.of_card = &*of_card;
       if (of_card->packings >= kFewestPackings)
         one.band = band_of({of_card->packings, of_card->simulated, of_card->simulated_standard_deviation},
-                           {1, reading.value, 0}, kReadFalseAlarm);
+                           {1, reading.value, 0}, false_alarm);
     }
     out.push_back(std::move(one));
   }
@@ -76,7 +82,7 @@ std::string reading_table(const std::vector<HeapReading>& readings, const std::s
   }
   if (!packings.empty()) out += "Card: " + packings + ".\n";
   if (std::ranges::any_of(readings, &HeapReading::is_compared))
-    out += "Noise: 95 of 100 packings of the card's material differ by less.\n";
+    out += "Noise: of 95 in 100 packings of the card's material all readings differ by less.\n";
   return out;
 }
 
