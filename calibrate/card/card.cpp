@@ -110,6 +110,24 @@ Eigen::VectorXd point_of(const Card& card) {
   return Eigen::Map<const Eigen::VectorXd>(point.data(), std::ssize(point));
 }
 
+Card with_parameters(Card card, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) card.material.parameters[i].value = values[i];
+  Test own_grains = card.tests.front().test;
+  specimen_of(own_grains).grains = card.material.grains;
+  card.material.contact = specimen_of(with_contact_of(std::move(own_grains), values)).contact;
+  for (CardTest& test : card.tests) {
+    test.test = with_contact_of(std::move(test.test), values);
+    test.readings.clear();
+    test.within_noise.reset();
+    test.baseline = {};
+  }
+  card.confirmation = {};
+  card.inference = {};
+  card.rebaselined.clear();
+  card.further_confirmations.clear();
+  return card;
+}
+
 Result<Card> rescaled(Card card, double radius) {
   const auto has_that_size = [](const CardTest& test) { return !why_of_that_size(test.test).empty(); };
   if (const auto of_its_size = std::ranges::find_if(card.tests, has_that_size);

@@ -258,6 +258,10 @@ Study study_of(const Card& card);
 /// The card's material as a point of that study.
 Eigen::VectorXd point_of(const Card& card);
 
+/// The card with another material of the same laws, for example one that fits the readings as well: not simulated, so
+/// without readings, confirmation and intervals. `values`: of `parameter_kinds()`.
+Card with_parameters(Card card, const std::vector<double>& values);
+
 /// The card's material for another mean radius of its grains, in all its tests, by the scaling rule: F/R^2 stays the
 /// same function of d/R. With s = radius/old radius: a stays, b s, c s^2, d_c s, offset s, cohesion s^2, liquid volume
 /// s^3, surface tension s, all radii of the distribution s; Young's modulus stays (contact stiffness is then

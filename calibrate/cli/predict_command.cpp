@@ -14,7 +14,6 @@
 #include "calibrate/report/findings.h"
 #include "calibrate/store/output_folder.h"
 #include "calibrate/study/apparatus.h"
-#include "calibrate/study/parameters.h"
 
 namespace pastefit {
 
@@ -107,40 +106,23 @@ nlohmann::ordered_json next_json(const NextTests& next) {
   return out;
 }
 
-/// Calibration with the materials that fit its readings.
-struct Family {
-  Card card;
-  std::vector<std::vector<double>> materials;
-
-  int simulations(const PredictOptions& options) const { return options.packings * static_cast<int>(materials.size()); }
-};
-
-Family fitting_materials(const std::string& folder) {
-  const Findings findings = value_or_throw(read_findings(folder, kStore));
-  if (!findings.card || !findings.inference)
-    refuse({{folder,
-             "does not contain materials that fit: " +
-                 (findings.missing.empty() ? std::string("there is no inference") : one_line(findings.missing.front())),
-             "give the folder of a calibration that found a material"}});
-  Family family{*findings.card, {}};
-  for (const EquivalentMaterial& one : findings.inference->family)
-    family.materials.push_back(
-        values_at(*findings.study, {one.point.data(), static_cast<std::size_t>(one.point.size())}));
-  return family;
+/// Heaps of one test.
+int simulations_of(const FittingMaterials& family, const PredictOptions& options) {
+  return options.packings * static_cast<int>(family.values.size());
 }
 
 /// Refuses tests that cannot be predicted, or take too long.
-void check_effort(const Family& family, const Test& other, const PredictOptions& options, int tests = 1) {
+void check_effort(const FittingMaterials& family, const Test& other, const PredictOptions& options, int tests = 1) {
   const Test test = with_material_of(family.card, other);
   refuse(validate(test));
   refuse(validate_memory(test, options.threads));
-  const int simulations = tests * family.simulations(options);
+  const int simulations = tests * simulations_of(family, options);
   refuse(long_run_faults("--packings", format("%d simulations", simulations), simulations * least_effort_s(test),
                          options.threads, options.force, "fewer --packings"));
 }
 
 /// Predicts the readings of each preset, and their discrimination between the materials.
-int predict_presets(const Family& family, const PredictOptions& options) {
+int predict_presets(const FittingMaterials& family, const PredictOptions& options) {
   NextTests next;
   std::vector<std::pair<std::string, Test>> tests;
   std::vector<nlohmann::json> described;
@@ -159,10 +141,10 @@ int predict_presets(const Family& family, const PredictOptions& options) {
   }
   const int count = static_cast<int>(tests.size());
   for (const auto& [name, test] : tests) check_effort(family, test, options, count);
-  WorkLine line("simulations", count * family.simulations(options));
+  WorkLine line("simulations", count * simulations_of(family, options));
   const CheckEngine engine = counted(CheckEngine::ours(), line);
   for (const auto& [name, test] : tests) {
-    const auto found = predict(family.card, family.materials, test, {}, options.packings, options.threads, engine);
+    const auto found = predict(family.card, family.values, test, {}, options.packings, options.threads, engine);
     if (!found.ok()) next.left_out.emplace_back(name, found.faults().front().what);
     if (!found.ok()) continue;
     for (const ReadingPrediction& one : found.value().readings) next.readings.push_back({name, one});
@@ -177,19 +159,19 @@ int predict_presets(const Family& family, const PredictOptions& options) {
 }
 
 int predict_other(const PredictOptions& options) {
-  const Family family = fitting_materials(options.folder);
+  const FittingMaterials family = value_or_throw(read_fitting_materials(options.folder, kStore));
   if (options.lab.empty() && options.preset.empty()) return predict_presets(family, options);
   std::optional<Lab> lab;
   if (!options.lab.empty()) lab = value_or_throw(read_lab(options.lab));
   const Test test = lab ? lab->test : test_of_preset(options.preset, family.card);
   check_effort(family, test, options);
-  WorkLine line("simulations", family.simulations(options));
+  WorkLine line("simulations", simulations_of(family, options));
   const Prediction found =
-      value_or_throw(predict(family.card, family.materials, test, lab ? lab->measurements : std::vector<Measurement>(),
+      value_or_throw(predict(family.card, family.values, test, lab ? lab->measurements : std::vector<Measurement>(),
                              options.packings, options.threads, counted(CheckEngine::ours(), line)),
                      kFailed);
   line.clear();
-  const std::size_t materials = family.materials.size();
+  const std::size_t materials = family.values.size();
   if (options.json) {
     print("%s", json_text(prediction_json(found, materials)).c_str());
   } else {

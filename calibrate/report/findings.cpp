@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/evaluate/record.h"
 #include "calibrate/inference/examination.h"
+#include "calibrate/study/parameters.h"
 
 namespace pastefit {
 
@@ -98,6 +100,21 @@ Result<Findings> read_findings(const fs::path& folder, const std::string& store)
   else
     findings.missing.push_back("The simulations of the search are not shown: " + in_words(kept.faults()) + ".");
   return findings;
+}
+
+Result<FittingMaterials> read_fitting_materials(const fs::path& folder, const std::string& store) {
+  const auto findings = read_findings(folder, store);
+  if (!findings.ok()) return findings.faults();
+  const Findings& read = findings.value();
+  if (!read.card || !read.inference)
+    return Fault{folder.string(),
+                 "does not contain materials that fit: " +
+                     (read.missing.empty() ? std::string("there is no inference") : one_line(read.missing.front())),
+                 "give the folder of a calibration that found a material"};
+  FittingMaterials found{*read.card, {}};
+  for (const EquivalentMaterial& one : read.inference->family)
+    found.values.push_back(values_at(*read.study, {one.point.data(), static_cast<std::size_t>(one.point.size())}));
+  return found;
 }
 
 Findings findings_without_card(const Study& study, const Store& store) {

@@ -37,6 +37,15 @@ Inference inference_of(const Card& card, const TrainingData& evidence);
 
 inline const std::string kCardFile = "card.json";
 
+/// A calibrated material and those that fit its readings as well, the card's own first.
+struct FittingMaterials {
+  Card card;
+  std::vector<std::vector<double>> values;  ///< of each material, of `parameter_kinds()`
+};
+
+/// Reads them from a folder written by `pastefit calibrate`. Error: there are none.
+Result<FittingMaterials> read_fitting_materials(const std::filesystem::path& folder, const std::string& store);
+
 /// Reads a folder written by `pastefit calibrate`. Missing and damaged parts are listed in `missing`. `store`: file
 /// name of the evaluations. Error: no such folder, or neither card nor evaluations in it.
 Result<Findings> read_findings(const std::filesystem::path& folder, const std::string& store);

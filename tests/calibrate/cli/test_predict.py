@@ -48,6 +48,31 @@ class Predict(Desk):
         self.assertIn("mini-cone", found["left_out"])  # its mould is three grains wide
         self.assertIn("the mould is only", found["left_out"]["mini-cone"])
 
+    def test_every_material_that_fits_is_exported_with_a_card_of_its_own(self):
+        decks = self.folder / "decks"
+        result = run("export", self.out / "card.json", "--to", "liggghts", "--out", decks, "--materials", "--unconfirmed")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertGreater(len(list(decks.iterdir())), 1)
+        own = json.loads((self.out / "card.json").read_text())["material"]
+        seen = []
+        for number in range(1, 1 + len(list(decks.iterdir()))):
+            folder = decks / f"material-{number}"
+            card = json.loads((folder / "card.json").read_text())
+            seen.append(card["material"]["parameters"])
+            if number == 1:
+                self.assertEqual(card["material"], own)
+                continue
+            self.assertEqual((folder / "NOTES.txt").read_text().splitlines()[0], "NOT CONFIRMED: not simulated on fresh packings")
+            self.assertNotEqual(card["material"]["contact"], own["contact"])
+            self.assertFalse(any(test["readings"] for test in card["tests"]))
+            self.assertEqual(run("export", folder / "card.json", "--to", "csv", "--out", folder / "csv", "--unconfirmed").returncode, 0)
+        self.assertEqual(len({json.dumps(one) for one in seen}), len(seen))
+        alone = self.folder / "card.json"
+        alone.write_text((self.out / "card.json").read_text())
+        self.fails(run("export", alone, "--to", "liggghts", "--out", self.folder / "none", "--materials", "--unconfirmed"), 2,
+                   "does not contain materials that fit")
+        self.assertFalse((self.folder / "none").exists())
+
 
 class Plan(Desk):
     EXPECTED = ["--mould", "DIN EN 12350-2", "--slump", "150", "--grains", "13"]
