@@ -16,7 +16,6 @@
 #include "calibrate/exports/export.h"
 #include "calibrate/python/module.h"
 #include "calibrate/report/summary.h"
-#include "calibrate/study/parameters.h"
 #include "calibrate/verify/verify.h"
 
 namespace pastefit::python {
@@ -60,16 +59,14 @@ std::string check_json(const std::string& card_text, const CheckOptions& options
   return to_json(std::vector<CheckedFile>{{"", answer}}).at("cards").at(0).dump();
 }
 
-/// The card's tests with changed values of these material parameters.
-std::string tests_json(const std::string& card_text, const std::map<std::string, double>& parameters) {
-  const Card card = value_or_throw(card_from_json(parsed(card_text)));
+/// The card with other values of these material parameters (`with_parameters`).
+std::string card_with_parameters(const std::string& card_text, const std::map<std::string, double>& parameters) {
+  Card card = value_or_throw(card_from_json(parsed(card_text)));
   std::vector<double> values = values_of(card.material);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (const auto other = parameters.find(card.material.parameters[i].name); other != parameters.end())
       values[i] = other->second;
-  auto tests = nlohmann::json::array();
-  for (const CardTest& one : card.tests) tests.push_back(to_json(with_contact_of(one.test, values)));
-  return tests.dump();
+  return to_json(with_parameters(std::move(card), values)).dump();
 }
 
 }  // namespace
@@ -84,7 +81,7 @@ void add_cards(py::module_& module) {
              [](const std::string& text) { return summary_of(value_or_throw(card_from_json(parsed(text)))); });
   module.def("card_verdict",
              [](const std::string& text) { return verdict_of(value_or_throw(card_from_json(parsed(text)))); });
-  module.def("card_tests", tests_json);
+  module.def("card_with_parameters", card_with_parameters);
   module.def("widening", widening);
   module.def(
       "export",

@@ -82,20 +82,6 @@ def _predicted_parameters(anchors: List[_Anchor], value: float) -> Dict[str, Tup
     return out
 
 
-def _set_tests(card: Dict[str, Any], parameters: Dict[str, float], density_ratio: float) -> None:
-    """Gives the tests this material; none of them was simulated."""
-    tests = json.loads(_core.card_tests(json.dumps(card), parameters))
-    card["material"]["contact"] = tests[0]["contact"]
-    for one, test in zip(card["tests"], tests):
-        one["test"] = {key: test[key] for key in one["test"]}
-        if "bulk_density_kg_m3" in one["test"]:
-            one["test"]["bulk_density_kg_m3"] *= density_ratio
-        one["readings"] = {}
-        one["lab"]["notes"] = "Apparatus of this laboratory file; its readings are of another mix. " + one["lab"]["notes"]
-        for simulated in ("within_noise", "baseline", "measured_yield_stress_pa"):
-            one.pop(simulated, None)
-
-
 def interpolate(folder: Union[str, "os.PathLike[str]"], variable: str, value: float) -> Card:
     """The card of a mix between those of a batch, predicted from their confirmed cards and not confirmed itself.
 
@@ -109,19 +95,21 @@ def interpolate(folder: Union[str, "os.PathLike[str]"], variable: str, value: fl
     does not lie between theirs, and cards with other contact laws, parameters or bounds.
     """
     anchors = _anchors(pathlib.Path(folder), variable, value)
-    card = min(anchors, key=lambda one: abs(one.at - value)).card
+    nearest = min(anchors, key=lambda one: abs(one.at - value)).card
     predicted = _predicted_parameters(anchors, value)
-    parameters = {name: mean for name, (mean, _, _) in predicted.items()}
     density, _ = predicted_on_line(np.array([one.at for one in anchors]),
                                    np.array([one.card["material"]["bulk_density_kg_m3"] for one in anchors]), value)
+    card = json.loads(_core.card_with_parameters(json.dumps(nearest), {name: mean for name, (mean, _, _) in predicted.items()}))
     material = card["material"]
     ratio = density / material["bulk_density_kg_m3"]
-    _set_tests(card, parameters, ratio)
-    material["parameters"].update(parameters)
     for kind in ("bulk_density_kg_m3", "grain_density_kg_m3"):
         material[kind] = material[kind] and material[kind] * ratio
-    for former in ("correlation", "not_identified", "unstated_conditions", "rebaselined", "rescaled", "further_confirmations"):
-        card.pop(former, None)
+    for one in card["tests"]:
+        if "bulk_density_kg_m3" in one["test"]:
+            one["test"]["bulk_density_kg_m3"] *= ratio
+        one["lab"]["notes"] = "Apparatus of this laboratory file; its readings are of another mix. " + one["lab"]["notes"]
+        one.pop("measured_yield_stress_pa", None)
+    card.pop("rescaled", None)
     card["title"] = "a mix in between"
     card["intervals"] = {"method": f"prediction by a line over the mix from {len(anchors)} cards", "level": 0.95,
                          "parameters": {name: {"lower": low, "upper": high} for name, (_, low, high) in predicted.items()}}
