@@ -110,7 +110,7 @@ Eigen::VectorXd point_of(const Card& card) {
   return Eigen::Map<const Eigen::VectorXd>(point.data(), std::ssize(point));
 }
 
-Card with_parameters(Card card, const std::vector<double>& values) {
+Card with_other_material(Card card, const std::vector<double>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) card.material.parameters[i].value = values[i];
   Test own_grains = card.tests.front().test;
   specimen_of(own_grains).grains = card.material.grains;

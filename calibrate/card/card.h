@@ -260,7 +260,7 @@ Eigen::VectorXd point_of(const Card& card);
 
 /// The card with another material of the same laws, for example one that fits the readings as well: not simulated, so
 /// without readings, confirmation and intervals. `values`: of `parameter_kinds()`.
-Card with_parameters(Card card, const std::vector<double>& values);
+Card with_other_material(Card card, const std::vector<double>& values);
 
 /// The card's material for another mean radius of its grains, in all its tests, by the scaling rule: F/R^2 stays the
 /// same function of d/R. With s = radius/old radius: a stays, b s, c s^2, d_c s, offset s, cohesion s^2, liquid volume

@@ -120,7 +120,7 @@ std::optional<std::size_t> chosen(const Tests& tests, const std::string& name, F
 std::vector<std::string> notes_of(const Lab& lab) {
   std::vector<std::string> notes = lab.notes;
   if (!lab.note.empty()) notes.insert(notes.begin(), lab.note);
-  for (std::string& note : check_readings(lab.test, lab.measurements).notes) notes.push_back(std::move(note));
+  for (std::string& note : check_readings(lab.test, lab.measurements).remarks()) notes.push_back(std::move(note));
   return notes;
 }
 

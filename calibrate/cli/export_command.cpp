@@ -38,7 +38,7 @@ Result<std::vector<ExportFile>> files_of_materials(const Exporter& exporter, Exp
   std::vector<ExportFile> all;
   for (std::size_t k = 0; k < materials.size(); ++k) {
     const std::string folder = format("material-%zu", k + 1);
-    Card card = k == 0 ? own : with_parameters(own, materials[k]);
+    Card card = k == 0 ? own : with_other_material(own, materials[k]);
     card.title += format(", material %zu of %zu that fit", k + 1, materials.size());
     options.card = (fs::path(options.out) / folder / kCardFile).string();
     options.unconfirmed = options.unconfirmed || k > 0;

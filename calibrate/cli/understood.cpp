@@ -159,7 +159,7 @@ std::string notes_on_readings(const Study& study) {
   for (const StudyTest& test : study.tests) {
     if (!test.lab.note.empty()) out += test.lab_file + ": " + test.lab.note + ".\n";
     for (const std::string& note : test.lab.notes) out += test.lab_file + ": " + note + ".\n";
-    for (const std::string& note : check_readings(test.lab.test, test.lab.measurements).notes)
+    for (const std::string& note : check_readings(test.lab.test, test.lab.measurements).remarks())
       out += test.lab_file + ": " + note + ".\n";
   }
   for (const std::string& note : notes_on_tolerances(study)) out += "Warning: " + note + ".\n";

@@ -81,23 +81,28 @@ std::string slips_of(const SlumpTest& test, const Heap& heap) {
   return out;
 }
 
-std::string in_words(const SlumpTest& test, const Heap& heap) {
+/// Notes the shape; an unusual one is a doubt.
+void check_shape(const SlumpTest& test, const Heap& heap, const std::string& when, ReadingCheck& check) {
   const double share = share_of_cone_width(test, heap), deviation = deviation_of_share(test, heap);
   const std::string size = format("%.4g mm high and %.4g mm wide (%.2f +- %.2f of a cone's width)", heap.height.value,
                                   heap.width.value, share, deviation);
   if (share > 1 + explained * deviation) {
     const double height_mm = nearest_cone_mm(test, heap);
-    return "no convex heap of this volume is " + size +
-           ": check the readings, or the heap has a peak on a skirt; a cone, the nearest that can be, is " +
-           format("%.4g mm high and %.4g mm wide", height_mm, cone_width_mm(test, height_mm));
+    check.doubts.push_back(
+        when + "no convex heap of this volume is " + size +
+        ": check the readings, or the heap has a peak on a skirt; a cone, the nearest that can be, is " +
+        format("%.4g mm high and %.4g mm wide", height_mm, cone_width_mm(test, height_mm)));
+  } else if (share < pancake) {
+    check.doubts.push_back(
+        when + "check the readings: no heap of this volume is " + size +
+        format("; the narrowest, a flat cylinder, is %.4g mm wide", narrowest_mm(test, heap.height.value)) +
+        slips_of(test, heap));
+  } else {
+    check.notes.push_back(when + "a heap of this volume " + size + " is " +
+                          (share > 1            ? "wider than a cone, by no more than the readings' noise"
+                           : share < paraboloid ? "between a flat cylinder and a paraboloid"
+                                                : "between a paraboloid and a cone"));
   }
-  if (share < pancake)
-    return "check the readings: no heap of this volume is " + size +
-           format("; the narrowest, a flat cylinder, is %.4g mm wide", narrowest_mm(test, heap.height.value)) +
-           slips_of(test, heap);
-  if (share > 1) return "a heap of this volume " + size + " is wider than a cone, by no more than the readings' noise";
-  return "a heap of this volume " + size + " is " +
-         (share < paraboloid ? "between a flat cylinder and a paraboloid" : "between a paraboloid and a cone");
 }
 
 /// Largest width of a peak on a skirt, over the cone's width; beyond it, no volume is left.
@@ -192,15 +197,15 @@ void check_flow(const SlumpTest& test, std::span<const Measurement> measurements
   const Measurement* flow = first_of(measurements, {"after_drops.spread_mm"});
   const double meant_mm = flow ? width_of_flow_mm(test, flow->value) : 0;
   if (flow && gives_flow_in_percent(test) && meant_mm <= mm * test.table_length_m)
-    check.notes.push_back(
+    check.doubts.push_back(
         format("after_drops.spread_mm is taken for a width, %.4g mm; a flow of %.4g %% is a width of %.4g mm",
                flow->value, flow->value, meant_mm));
   for (const Measurement& one : measurements)
     if (!flow && test.drop && test.drop->drops > 1 && one.reading.starts_with("step2."))
-      check.notes.push_back(one.reading +
-                            format(" is of the heap after the first of %d drops; the width after all of them is "
-                                   "after_drops.spread_mm (--flow of pastefit new)",
-                                   test.drop->drops));
+      check.doubts.push_back(one.reading +
+                             format(" is of the heap after the first of %d drops; the width after all of them is "
+                                    "after_drops.spread_mm (--flow of pastefit new)",
+                                    test.drop->drops));
 }
 
 /// Note on cakes with a thickness of few grains, which the grain size determines.
@@ -209,7 +214,7 @@ void check_cake(const SlumpTest& test, const Measurement& width, ReadingCheck& c
   const double cake_mm = 4e9 * volume_m3(test.mould) / (std::numbers::pi * width.value * width.value);
   const double grain_mm = 2e3 * std::max(test.grains.radius_m, test.grains.largest_m);
   if (cake_mm >= grains_thick * grain_mm) return;
-  check.notes.push_back(
+  check.doubts.push_back(
       format("a heap %.4g mm wide is %.2g mm thick on the average, and the grains are up to %.2g mm: "
              "take grains of %.2g mm radius or less",
              width.value, cake_mm, grain_mm, 0.5 * cake_mm / grains_thick));
@@ -229,7 +234,7 @@ ReadingCheck check_readings(const SlumpTest& test, std::span<const Measurement> 
         first_of(measurements, {step + "height_max_mm", step + "height_mm", step + "height_axis_mm"});
     const Measurement* width = first_of(measurements, {step + "spread_mm", step + "spread_orthogonal_mm"});
     if (height)
-      if (std::string note = small_slump(test, *height); !note.empty()) check.notes.push_back(std::move(note));
+      if (std::string note = small_slump(test, *height); !note.empty()) check.doubts.push_back(std::move(note));
     if (width && width->value > 0) check_cake(test, *width, check);
     if (!height || !width || height->value <= 0) continue;
     const Heap heap{*height, *width};
@@ -238,10 +243,11 @@ ReadingCheck check_readings(const SlumpTest& test, std::span<const Measurement> 
     else if (share_of_cone_width(test, heap) > widest_skirt + sure * deviation_of_share(test, heap))
       check.faults.push_back(too_much_volume(test, heap));
     else
-      check.notes.push_back((step == "step1."   ? ""
-                             : step == "step2." ? "after the drop, "
-                                                : "after all drops, ") +
-                            in_words(test, heap));
+      check_shape(test, heap,
+                  step == "step1."   ? ""
+                  : step == "step2." ? "after the drop, "
+                                     : "after all drops, ",
+                  check);
   }
   return check;
 }

@@ -17,8 +17,16 @@ struct Measurement {
 
 /// Result of checking all readings of a test together.
 struct ReadingCheck {
-  std::vector<std::string> notes;  ///< one sentence each, without a full stop
-  Faults faults;                   ///< contradictions between readings, or with the apparatus, beyond their deviations
+  std::vector<std::string> doubts;  ///< possible mistakes, one sentence each, without a full stop
+  std::vector<std::string> notes;   ///< the same of what is usual, e.g. the shape of the heap
+  Faults faults;                    ///< contradictions between readings, or with the apparatus, beyond their deviations
+
+  /// Doubts and notes.
+  std::vector<std::string> remarks() const {
+    std::vector<std::string> all = doubts;
+    all.insert(all.end(), notes.begin(), notes.end());
+    return all;
+  }
 };
 
 }  // namespace pastefit

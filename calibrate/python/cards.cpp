@@ -59,14 +59,14 @@ std::string check_json(const std::string& card_text, const CheckOptions& options
   return to_json(std::vector<CheckedFile>{{"", answer}}).at("cards").at(0).dump();
 }
 
-/// The card with other values of these material parameters (`with_parameters`).
+/// The card with other values of these material parameters (`with_other_material`).
 std::string card_with_parameters(const std::string& card_text, const std::map<std::string, double>& parameters) {
   Card card = value_or_throw(card_from_json(parsed(card_text)));
   std::vector<double> values = values_of(card.material);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (const auto other = parameters.find(card.material.parameters[i].name); other != parameters.end())
       values[i] = other->second;
-  return to_json(with_parameters(std::move(card), values)).dump();
+  return to_json(with_other_material(std::move(card), values)).dump();
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/card/standing.h"
+#include "calibrate/inference/description.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tolerance.h"
@@ -164,7 +165,7 @@ Diagnosis measured_together(const Card& card) {
                 .may_be_ignored = "if they were read on one heap, and the simulated ones are within tolerance",
                 .page = "when-it-does-not-meet.md#readings-that-no-heap-can-have"};
   for (const CardTest& test : card.tests)
-    for (const std::string& note : check_readings(test.test, laboratory_measurements(test)).notes)
+    for (const std::string& note : check_readings(test.test, laboratory_measurements(test)).doubts)
       out.notes.push_back(heading_of(test) + note);
   out.numbers = "nothing unusual";
   return out;
@@ -178,7 +179,12 @@ Diagnosis intervals(const Card& card) {
     out.notes.push_back(one.parameter + " is not identifiable: " + one.reason);
   const std::size_t known = card.inference.intervals.size();
   if (known + out.notes.size() == 0) out.unknown = "not calculated";
-  out.numbers = format("%zu of %zu parameters have one that the readings set", known, known);
+  std::vector<std::string> with_prior;
+  for (const Parameter& one : card.material.parameters)
+    if (one.free && one.prior) with_prior.push_back(one.name);
+  out.numbers =
+      format("%zu parameters", known) +
+      (with_prior.empty() ? ", by the readings" : ", by the readings and priors of " + enumerated(with_prior));
   return out;
 }
 

@@ -95,7 +95,7 @@ std::string remark_lines(const Card& card) {
   for (const auto& test : card.tests) {
     const auto say = [&](const std::string& remark) { out += heading_of(test) + remark + ".\n"; };
     if (test.lab.twin) say("The data of the laboratory file come from a simulation (a twin)");
-    for (const std::string& note : check_readings(test.test, laboratory_measurements(test)).notes)
+    for (const std::string& note : check_readings(test.test, laboratory_measurements(test)).remarks())
       say("Laboratory: " + note);
   }
   return out;

@@ -23,8 +23,8 @@ ReadingCheck doubts_about_heap(double height_mm, double width_mm, int repeats = 
 std::string note_on(double height_mm, double width_mm) {
   const ReadingCheck check = doubts_about_heap(height_mm, width_mm);
   REQUIRE(check.faults.empty());
-  REQUIRE(check.notes.size() == 1);
-  return check.notes[0];
+  REQUIRE(check.remarks().size() == 1);
+  return check.remarks()[0];
 }
 
 /// Width of a body of the mould's volume V = factor pi/4 D^2 h.
@@ -88,9 +88,15 @@ TEST_CASE("a heap that is too narrow is told what may have been taken for what")
 
 TEST_CASE("a slump of a few millimetres is told in other units") {
   const std::vector<Measurement> height{{"step1.height_mm", 292.75, 7.5, 1}};
-  const auto notes = check_readings(abrams(), height).notes;
-  REQUIRE(notes.size() == 1);
-  CHECK_THAT(notes[0], Catch::Contains("7.25 cm are 72.5 mm, 7.25 in are 184.15 mm"));
+  const auto doubts = check_readings(abrams(), height).doubts;
+  REQUIRE(doubts.size() == 1);
+  CHECK_THAT(doubts[0], Catch::Contains("7.25 cm are 72.5 mm, 7.25 in are 184.15 mm"));
+}
+
+TEST_CASE("an ordinary heap is no doubt, one that no body has is") {
+  CHECK(doubts_about_heap(80, 400).doubts.empty());  // 0.78 of a cone's width
+  CHECK(doubts_about_heap(107, 236).doubts.size() == 1);
+  CHECK(doubts_about_heap(120, 500).doubts.size() == 1);
 }
 
 TEST_CASE("repeats make a contradiction sure") {
@@ -101,9 +107,9 @@ TEST_CASE("repeats make a contradiction sure") {
 
 TEST_CASE("one reading alone is not doubted") {
   const std::vector<Measurement> height{{"step1.height_mm", 150, 7.5, 1}};
-  CHECK(check_readings(abrams(), height).notes.empty());
+  CHECK(check_readings(abrams(), height).remarks().empty());
   const std::vector<Measurement> mixed{{"step1.height_mm", 150, 7.5, 1}, {"step2.spread_mm", 485, 25, 1}};
-  CHECK(check_readings(abrams(), mixed).notes.empty());
+  CHECK(check_readings(abrams(), mixed).remarks().empty());
 }
 
 }  // namespace pastefit
