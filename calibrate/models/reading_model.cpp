@@ -201,15 +201,15 @@ double ReadingModel::propagate(const Eigen::MatrixXd& prior, const Eigen::LLT<Ei
 
 ReadingModel::Prediction ReadingModel::predict(const UnitPoint& point) const {
   if (scale_ == 0) return {centre_, 0, Eigen::VectorXd::Zero(std::ssize(rows_))};
-  Prediction out = told(covariances(point), covariance(point, point));
+  Prediction out = conditional(covariances(point), covariance(point, point));
   out.mean += centre_;
   return out;
 }
 
 ReadingModel::Prediction ReadingModel::change(const UnitPoint& from, const UnitPoint& to) const {
   if (scale_ == 0) return {0, 0, Eigen::VectorXd::Zero(std::ssize(rows_))};
-  return told(covariances(to) - covariances(from),
-              covariance(to, to) + covariance(from, from) - 2 * covariance(from, to));
+  return conditional(covariances(to) - covariances(from),
+                     covariance(to, to) + covariance(from, from) - 2 * covariance(from, to));
 }
 
 Eigen::VectorXd ReadingModel::covariances(const UnitPoint& point) const {
@@ -218,7 +218,7 @@ Eigen::VectorXd ReadingModel::covariances(const UnitPoint& point) const {
   return out;
 }
 
-ReadingModel::Prediction ReadingModel::told(const Eigen::VectorXd& covariances, double variance) const {
+ReadingModel::Prediction ReadingModel::conditional(const Eigen::VectorXd& covariances, double variance) const {
   Prediction out;
   out.weights.noalias() = inverse_ * covariances;
   out.mean = scale_ * covariances.dot(weights_);

@@ -87,8 +87,8 @@ class ReadingModel {
   double propagate(const Eigen::MatrixXd& prior, const Eigen::LLT<Eigen::MatrixXd>& cholesky);
   double covariance(const UnitPoint& a, const UnitPoint& b) const;
   Eigen::VectorXd covariances(const UnitPoint& point) const;  // with the rows
-  /// Of a quantity with these covariances with the rows, this variance before them, and the mean 0.
-  Prediction told(const Eigen::VectorXd& covariances, double variance) const;
+  /// Posterior of a quantity with mean 0, given its covariances with the rows and its prior variance.
+  Prediction conditional(const Eigen::VectorXd& covariances, double variance) const;
   double noise_variance(double mean) const;
   const UnitPoint& place(std::size_t row) const { return sites_[rows_[row].site]; }
 
