@@ -127,7 +127,7 @@ test("a reload in the middle of a calibration loses nothing", () =>
 test("a worker that dies is replaced, and its task asked again", () =>
   onPage(async (page) => {
     await calibrate(page, { title: "killer mix" });
-    await page.getByText("2 workers ended and were replaced.").waitFor();
+    await page.getByText(/[2-9] workers ended and were replaced\./).waitFor(); // more while the page looks
     assert.equal(await verdict(page), "The material is confirmed");
   }));
 
