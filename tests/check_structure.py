@@ -10,7 +10,7 @@ import sys
 
 # What each count may be at most. Lower a number when the tree shrinks; one that has to grow wants a reason in its commit.
 MOST = {
-    "lines of C++ in calibrate": 38273,
+    "lines of C++ in calibrate": 38293,
     "files of core and calibrate": 451,
     "of them below 40 lines": 64,
     "files that start or wait for threads": 2,
@@ -59,7 +59,7 @@ def counts(source):
         return sum(bool(re.search(pattern, content)) for content in text.values())
 
     return {
-        "lines of C++ in calibrate": 38273sum(count for file, count in lines.items() if "calibrate" in file.relative_to(source).parts),
+        "lines of C++ in calibrate": sum(count for file, count in lines.items() if "calibrate" in file.relative_to(source).parts),
         "files of core and calibrate": len(files),
         "of them below 40 lines": sum(count < 40 for count in lines.values()),
         "files that start or wait for threads": matching(r"std::j?thread> |std::condition_variable"),
