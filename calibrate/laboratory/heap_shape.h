@@ -23,13 +23,12 @@ inline double width_of_flow_mm(const SlumpTest& test, double percent) {
 /// height and volume:
 ///     pancake 1/sqrt(3) = 0.58, paraboloid sqrt(2/3) = 0.82, cone 1.
 /// No convex heap is wider than the cone, but one with a skirt is: s > 1 by more than the deviations is a doubt. No
-/// heap is narrower than the pancake: s < 0.58 is a doubt with likely mistakes, and 3 deviations below it a fault. With s ~ D sqrt(h), the
-/// deviations of the means give the deviation s sqrt((s_D/D)^2 + (s_h/2h)^2).
-/// Other heaps are a note. Further doubts: a slump of a few millimetres, or a width that may be a flow in per cent, because of a possible wrong
-/// unit; readings after the first of several drops without those after all of them. Further fault: a time to a width
-/// that the heap does not reach, by more than the deviation of its width.
-/// Limits: the heap has the volume of the mould, nothing has flowed off the table, and its height is at or near its
-/// highest point.
+/// heap is narrower than the pancake: s < 0.58 is a doubt with likely mistakes, and 3 deviations below it a fault. With
+/// s ~ D sqrt(h), the deviations of the means give the deviation s sqrt((s_D/D)^2 + (s_h/2h)^2). Other heaps are a
+/// note. Further doubts: a slump of a few millimetres, or a width that may be a flow in per cent, because of a possible
+/// wrong unit; readings after the first of several drops without those after all of them. Further fault: a time to a
+/// width that the heap does not reach, by more than the deviation of its width. Limits: the heap has the volume of the
+/// mould, nothing has flowed off the table, and its height is at or near its highest point.
 ReadingCheck check_readings(const SlumpTest& test, std::span<const Measurement> measurements);
 
 }  // namespace pastefit
