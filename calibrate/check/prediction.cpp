@@ -73,16 +73,26 @@ Result<Prediction> predict(const Card& card, std::span<const std::vector<double>
   const Test test = with_material_of(card, asked);
   std::vector<Runs> standing;
   Prediction out;
+  std::optional<Fault> last;  // failed simulation
   for (const std::vector<double>& values : materials) {
     const Test candidate = with_contact_of(test, values);
     if (const auto faults = validate(candidate); !faults.empty()) return faults;
-    const auto runs = baseline_runs(candidate, "", packings, engine, threads);
-    if (!runs.ok()) return runs.faults();
+    auto outcomes = outcomes_of(candidate, packings, engine, threads);
+    Runs runs;
+    for (std::size_t i = 0; i < packings.size(); ++i) {
+      const auto& failure = outcomes[i].failure;
+      if (!failure) runs.push_back({packings[i], std::move(outcomes[i].readings)});
+      if (!failure) continue;
+      last = failure_in(packings[i], *failure);
+      if (failure->reason == FailureReason::stopped) return *last;
+      ++out.failed;
+    }
     out.heaps += count;
-    for (const Baseline::Run& run : runs.value()) out.rejected += is_rejected(candidate, run.readings) ? 1 : 0;
-    standing.push_back(accepted(candidate, runs.value()));
+    for (const Baseline::Run& run : runs) out.rejected += is_rejected(candidate, run.readings) ? 1 : 0;
+    standing.push_back(runs.empty() ? Runs{} : accepted(candidate, runs));
     for (Baseline::Run& run : standing.back()) out.spilled += take_out_spilled(run) ? 1 : 0;
   }
+  if (out.failed == out.heaps) return *last;
   for (const ReadingKind& kind : reading_kinds(test)) {
     const auto* one = find_measurement(measured, kind.name);
     const auto has_it = [&](const Runs& runs) { return !column_of(runs, std::string(kind.name)).empty(); };

@@ -33,6 +33,7 @@ struct Prediction {
   std::vector<ReadingPrediction> readings;  ///< advised or measured ones
   int heaps = 0;                            ///< simulated
   int rejected = 0;                         ///< of them rejected; these are left out
+  int failed = 0;                           ///< simulations that failed, e.g. never came to rest; these are left out
   int spilled = 0;  ///< heaps with more than 0.1 of the grains off the table; readings of these stages are left out
 };
 
@@ -45,8 +46,8 @@ inline constexpr double prediction_level = 0.9;
 /// x_k: mean of material k, s: standard deviation of one heap, pooled over m materials and n heaps. `materials`: values
 /// of every parameter (`values_at`), the recommended ones first. Requirements: at least one material, packings >= 2.
 /// The materials should differ as much as the readings allow, so that their range represents the uncertainty of the
-/// material. Limit: the band excludes errors of contact law and grain size. Errors: the grains do not fit the test; a
-/// simulation fails.
+/// material. Limit: the band excludes errors of contact law and grain size. Errors: the grains do not fit the test; all
+/// simulations fail; a stop.
 Result<Prediction> predict(const Card& card, std::span<const std::vector<double>> materials, const Test& test,
                            std::span<const Measurement> measured, int packings, int threads,
                            const CheckEngine& engine = CheckEngine::ours());

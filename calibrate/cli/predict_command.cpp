@@ -45,14 +45,19 @@ std::string prediction_table(const Prediction& found, std::size_t materials) {
     out += "x: the measured value lies outside the band.\n";
   out += format("%zu materials that fit the readings of the calibration, %d heaps", materials, found.heaps);
   if (found.rejected > 0) out += format("; %d of them sheared off and are left out", found.rejected);
+  if (found.failed > 0) out += format("; %d of them never came to rest, or failed, and are left out", found.failed);
   if (found.spilled > 0) out += format("; %d slid off the table and are left out", found.spilled);
   return wrapped(out + ".\n");
 }
 
 nlohmann::ordered_json prediction_json(const Prediction& found, std::size_t materials) {
-  nlohmann::ordered_json out{{"materials", materials},     {"heaps", found.heaps},
-                             {"rejected", found.rejected}, {"spilled", found.spilled},
-                             {"level", prediction_level},  {"readings", nlohmann::ordered_json::object()}};
+  nlohmann::ordered_json out{{"materials", materials},
+                             {"heaps", found.heaps},
+                             {"rejected", found.rejected},
+                             {"failed", found.failed},
+                             {"spilled", found.spilled},
+                             {"level", prediction_level},
+                             {"readings", nlohmann::ordered_json::object()}};
   for (const ReadingPrediction& one : found.readings) {
     nlohmann::ordered_json& row = out["readings"][one.name];
     row = {{"mean", one.mean},

@@ -93,3 +93,31 @@ TEST_CASE("of heaps that slide off the table a prediction has no later readings,
   CHECK(height2->of_materials == std::vector<double>{80});
   CHECK(std::ranges::find(readings, "step1.height_mm", &ReadingPrediction::name)->of_materials.size() == 2);
 }
+
+TEST_CASE("a heap that never comes to rest is counted and left out, and only all of them are an error") {
+  const auto card = read_card(PASTEFIT_SOURCE_DIR "/data/cards/concrete-mix-79.json");
+  REQUIRE(card.ok());
+  const std::vector<std::vector<double>> materials(2, values_of(card.value().material));
+  const Test test = card.value().tests.front().test;
+  const auto predicted = [&](std::uint64_t first_that_fails) {
+    CheckEngine engine = made_up();
+    engine.run = [run = engine.run, first_that_fails](const Test& one, const RunOptions& options) {
+      Outcome outcome = run(one, options);
+      if (specimen_of(one).packing_seed >= first_that_fails) {
+        Failure failure;
+        failure.reason = FailureReason::never_settled;
+        outcome.failure = failure;
+      }
+      return outcome;
+    };
+    return predict(card.value(), materials, test, {}, 4, 1, engine);
+  };
+  const auto all = predicted(80'005), some = predicted(80'004), none = predicted(80'001);
+  REQUIRE(all.ok());
+  REQUIRE(some.ok());
+  CHECK(all.value().failed == 0);
+  CHECK(some.value().failed == 2);
+  CHECK(some.value().readings.at(0).heaps == 3);
+  REQUIRE_FALSE(none.ok());
+  CHECK_THAT(none.faults().at(0).what, Catch::Contains("never_settled"));
+}
