@@ -10,7 +10,7 @@ import sys
 
 # What each count may be at most. Lower a number when the tree shrinks; one that has to grow wants a reason in its commit.
 MOST = {
-    "lines of C++ in calibrate": 38293,
+    "lines of C++ in calibrate": 38321,
     "files of core and calibrate": 451,
     "of them below 40 lines": 64,
     "files that start or wait for threads": 2,
