@@ -33,9 +33,14 @@ CandidateRanking::CandidateRanking(const EvaluationHistory& history, std::span<c
     least_misfit_ = misfit;
     least_ = seen.point;
   }
+  double most_plausible = no_misfit;
   for (const Response& seen : history.singles()) {
     if (!is_whole(seen) || is_refuted(seen.point)) continue;
     const double misfit = surrogate_.misfit_posterior(seen.point).mean();
+    if (misfit < most_plausible) {
+      most_plausible = misfit;
+      most_plausible_ = seen.point;
+    }
     const double expected = expected_margin(seen.point), margin = expected < worthwhile_margin ? 0 : expected;
     if (margin < margin_of_best_ || (margin == margin_of_best_ && misfit >= misfit_of_best_)) continue;
     margin_of_best_ = margin;

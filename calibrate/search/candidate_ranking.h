@@ -22,7 +22,9 @@ class CandidateRanking {
   /// Completely simulated candidate of largest expected margin; of least expected misfit if all margins are below
   /// `worthwhile_margin`. No point if there is none.
   const UnitPoint& best() const { return best_; }
-  /// Its expected misfit; infinite if there is none.
+  /// Completely simulated candidate of least expected misfit. No point if there is none.
+  const UnitPoint& most_plausible() const { return most_plausible_; }
+  /// Expected misfit of the best; infinite if there is none.
   double misfit_of_best() const { return misfit_of_best_; }
   double margin_of_best() const { return margin_of_best_; }  ///< 0 if below `worthwhile_margin`
   /// Simulated point of least expected misfit, stopped runs and coarse grains included.
@@ -52,7 +54,7 @@ class CandidateRanking {
 
   const EvaluationHistory& history_;
   Surrogate surrogate_;
-  UnitPoint best_, least_;
+  UnitPoint best_, most_plausible_, least_;
   double misfit_of_best_, least_misfit_, margin_of_best_ = 0;
 };
 
