@@ -65,8 +65,7 @@ std::optional<Fault> utf_16(std::string_view text) {
 /// Fault of a workbook, or of a table: two lines with separators and no JSON beginning.
 std::optional<Fault> spreadsheet(std::string_view bytes, const std::filesystem::path& file) {
   const std::string rows = " makes a study of each of its rows";
-  if (bytes.starts_with("PK"))
-    return Fault{"", "is a workbook", "save its sheet as CSV; pastefit new --from TABLE.csv" + rows};
+  if (bytes.starts_with("PK")) return Fault{"", "is a workbook", "pastefit new --from TABLE.xlsx" + rows};
   const std::string text = trimmed(text_in_utf8(bytes).value_or(""));
   const std::size_t end = text.find('\n');
   if (end == text.npos || text.find_first_of("{[/") == 0 || text.find("\":") < end) return std::nullopt;

@@ -13,9 +13,9 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"
+#include "calibrate/cli/sheet_file.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/cli/understood.h"
-#include "calibrate/study/sheet_table.h"
 #include "calibrate/study/slump_sheet.h"
 #include "calibrate/study/written_readings.h"
 

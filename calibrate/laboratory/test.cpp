@@ -120,11 +120,13 @@ std::vector<std::string> template_names() {
     const std::string before = names.empty() ? "" : std::string(kind) + "-";
     names.insert(names.end(), {before + "lab", before + "study"});
   }
+  names.insert(names.end(), {"sheet", "sheet-de"});
   return names;
 }
 
 std::optional<std::string> template_text(std::string_view name) {
-  return std::optional<std::string>(embedded_text("laboratory/templates/" + std::string(name) + ".json"));
+  const std::string ending = name.starts_with("sheet") ? ".html" : ".json";
+  return std::optional<std::string>(embedded_text("laboratory/templates/" + std::string(name) + ending));
 }
 
 std::optional<std::string> template_text_of_mould(std::string_view name, std::string_view preset) {

@@ -187,11 +187,13 @@ std::optional<Test> test_of_kind(std::string_view kind);
 /// Fault of an unknown kind.
 Fault no_such_kind(std::string where, std::string_view word);
 
-/// Names of all starting files: "lab" and "study" for the first kind, prefixed by their word for others.
+/// Names of all starting files: "lab" and "study" for the first kind, prefixed by their word for others; the sheet to
+/// print.
 std::vector<std::string> template_names();
 
-/// Commented starting file (laboratory/templates), valid as it is; the study refers to "lab.json" in its folder.
-/// Nothing for unknown names.
+/// Starting file (laboratory/templates): JSON with comments, valid as it is, whose study refers to "lab.json" in its
+/// folder; or measuring sheet for printing (HTML, A4) whose heads `sheet_table` reads, in English or German
+/// ("sheet-de"). Nothing for unknown names.
 std::optional<std::string> template_text(std::string_view name);
 
 /// "lab" or "study" for an apparatus preset with its own starting files: the lifted cylinder, whose tests are of

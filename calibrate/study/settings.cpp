@@ -25,7 +25,7 @@ json* step_into(json& place, const std::string& step) {
   const char *const first = step.data() + bracket + 1, *const last = step.data() + step.size();
   const auto [end, error] = std::from_chars(first, last, index);
   const auto list = place.find(step.substr(0, bracket));
-  const bool is_index = error == std::errc() && std::string_view(end, last) == "]";
+  const bool is_index = error == std::errc() && end + 1 == last && *end == ']';
   return is_index && list != place.end() && list->is_array() && index < list->size() ? &(*list)[index] : nullptr;
 }
 

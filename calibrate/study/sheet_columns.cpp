@@ -79,12 +79,12 @@ std::string meaning_of(const std::string& head, const std::string& says) {
   return "";
 }
 
-/// Takes "slump2" for the reading after the drop, unless there is a "slump1".
+/// Takes "slump2" for the reading after the drop, unless there is a "slump1", or a "slump 1" without a "slump 2".
 void take_numbers_for_repeats(std::vector<SheetColumn>& columns) {
+  const auto has = [&](const std::string& says) { return std::ranges::count(columns, says, &SheetColumn::says) > 0; };
   for (SheetColumn& column : columns) {
-    const std::string bare = without_number(column.says);
-    const bool first = std::ranges::any_of(
-        columns, [&](const SheetColumn& other) { return other.says == bare + "1" || other.says == bare + " 1"; });
+    const std::string bare = without_number(column.says), spaced = bare + " " + column.says.substr(bare.size());
+    const bool first = has(bare + "1") || (has(bare + " 1") && !has(spaced));
     if (first && bare != column.says && bare != "h" && !meaning_of("", bare).empty()) column.is = meaning_of("", bare);
   }
 }

@@ -204,8 +204,8 @@ SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& fa
   if (!layout) {
     faults.push_back(
         {"", "has no line that names a reading",
-         "give a table with a header row, e.g. \"sample;mould;density (kg/m3);slump (mm);spread (mm)\"; save a "
-         "workbook as CSV"});
+         "give a table with a header row, e.g. \"sample;mould;density (kg/m3);slump (mm);spread (mm)\"; "
+         "a workbook needs it on its first sheet"});
     return table;
   }
   take_units(*layout);
@@ -234,25 +234,6 @@ SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& fa
   for (Fault& fault : faults_of_names(table.rows)) faults.push_back(std::move(fault));
   if (table.rows.empty())
     faults.push_back({"", "has no row with a reading", "one row per sample below the header row"});
-  return table;
-}
-
-SheetTable read_sheet_table(const std::filesystem::path& file, const Sheet& defaults, Faults& faults) {
-  const auto bytes = read_input(file, {.remedy = "a table, saved as CSV", .ending = ".csv"});
-  if (!bytes.ok()) {
-    faults.insert(faults.end(), bytes.faults().begin(), bytes.faults().end());
-    return {};
-  }
-  if (bytes.value().starts_with("PK")) {
-    faults.push_back({printable(file.string()), "is a workbook",
-                      "save its sheet as CSV, and give that file: in Excel Save As, \"CSV UTF-8\"; in LibreOffice Save "
-                      "As, \"Text CSV\""});
-    return {};
-  }
-  Faults found;
-  SheetTable table = sheet_table(bytes.value(), defaults, found);
-  for (Fault& fault : in_file(std::move(found), file)) faults.push_back(std::move(fault));
-  for (SheetRow& row : table.rows) row.sheet.source = file.filename().string() + ", line " + std::to_string(row.line);
   return table;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,8 +35,5 @@ struct SheetTable {
 /// of rows without them.
 /// Faults, each with its place: no header, no row with a reading, an unreadable heading or cell, a duplicate sample.
 SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& faults);
-
-/// Reads the table from a file, which becomes the source of each sheet.
-SheetTable read_sheet_table(const std::filesystem::path& file, const Sheet& defaults, Faults& faults);
 
 }  // namespace pastefit

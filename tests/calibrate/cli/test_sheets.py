@@ -225,11 +225,6 @@ class Sheets(Desk):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual("a flow of 110 % is a width of 210 mm" in " ".join(result.stderr.split()), named, result.stderr)
 
-    def test_a_workbook_in_place_of_a_table_is_answered_with_how_to_save_it(self):
-        workbook = self.folder / "book.xlsx"
-        workbook.write_bytes(b"PK\x03\x04\x14\0\x06\0")
-        self.fails(run("new", self.folder / "x", "--from", workbook), 2, "is a workbook; save its sheet as CSV", "Excel", "LibreOffice")
-
     def test_a_table_or_a_workbook_in_place_of_a_study_is_named(self):
         table, workbook, text = (self.folder / name for name in ("q.csv", "q.xlsx", "q.txt"))
         workbook.write_bytes(b"PK\x03\x04\x14\0\x06\0")
@@ -239,7 +234,7 @@ class Sheets(Desk):
                 with self.subTest(content=content, verb=verb[0]):
                     self.fails(run(*verb), 2, f"is a table; pastefit new --from {table} makes a study of each of its rows")
         for verb in (["calibrate", workbook, "--out", self.out], ["simulate", workbook], ["show", workbook]):
-            self.fails(run(*verb), 2, "is a workbook; save its sheet as CSV", "pastefit new --from")
+            self.fails(run(*verb), 2, "is a workbook; pastefit new --from")
         for content in ("{a, b\n1, 2\n}", "// a, b\n1, 2", "a\nb\n", '"title": "a",\n"lab": "b",\n', ""):
             text.write_text(content)
             self.fails(run("simulate", text), 2, "not JSON")

@@ -79,6 +79,7 @@ class ShippedFiles(Desk):
         help_text = " ".join(run("template", "--help").stdout.split())  # as lines are broken
         names = re.search(r"which one: (\w[\w-]*(?:, \w[\w-]*)*)", help_text)[1].split(", ")
         self.assertIn("lab", names)
+        names = [name for name in names if not name.startswith("sheet")]  # to print, see test_workbooks.py
         for name in names:
             with self.subTest(name):
                 (self.folder / f"{name}.json").write_text(self.answers("template", name))

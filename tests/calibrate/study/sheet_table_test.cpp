@@ -4,7 +4,6 @@
 #include <string>
 
 #include "calibrate/base/text.h"
-#include "tests/calibrate/folder.h"
 
 namespace pastefit {
 namespace {
@@ -202,18 +201,6 @@ TEST_CASE("cells, rows and columns beyond all use are errors, and take no time")
 
 TEST_CASE("a row without a reading is named, not lost in silence") {
   CHECK(read_without_faults("sample,slump\nx,180\ny,\nz,170\n").without == std::vector<std::size_t>{3});
-}
-
-TEST_CASE("a sheet of a table names the file and its line as its source, and a workbook is not a table") {
-  const test::Folder folder;
-  Faults faults;
-  const auto table = read_sheet_table(folder.write("book.csv", "sample,slump\nx,180\n"), {}, faults);
-  REQUIRE(table.rows.size() == 1);
-  CHECK(table.rows[0].sheet.source == "book.csv, line 2");
-  CHECK(faults.empty());
-  read_sheet_table(folder.write("book.xlsx", "PK\x03\x04"), {}, faults);
-  REQUIRE(faults.size() == 1);
-  CHECK_THAT(faults[0].remedy, Catch::Contains("CSV"));
 }
 
 }  // namespace pastefit
