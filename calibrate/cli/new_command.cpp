@@ -304,9 +304,9 @@ Command add_new(CLI::App& verb) {
   verb.add_option("--test", options->test, "slump; drop, pellet and shear write commented starting files")
       ->type_name("KIND");
   verb.add_option("--from", options->table,
-                  "table of samples, saved as CSV: one row per sample below a header row such as \"sample;density "
+                  "table of samples, as CSV or .xlsx: one row per sample below a header row such as \"sample;density "
                   "(kg/m3);slump (mm)\"; options supply what has no column")
-      ->type_name("TABLE.csv");
+      ->type_name("TABLE");
   verb.add_option("--title", sheet.title, "title of both files, one line")->type_name("TEXT");
   verb.add_option("--mould", sheet.mould,
                   "a preset (abrams, haegermann, ...), a standard (EN 12350-2), or base/top/height: \"200/100/300\", "

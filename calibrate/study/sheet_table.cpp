@@ -202,10 +202,9 @@ SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& fa
   std::optional<Layout> layout = text ? layout_of(*text) : std::nullopt;
   SheetTable table;
   if (!layout) {
-    faults.push_back(
-        {"", "has no line that names a reading",
-         "give a table with a header row, e.g. \"sample;mould;density (kg/m3);slump (mm);spread (mm)\"; "
-         "a workbook needs it on its first sheet"});
+    faults.push_back({"", "has no line that names a reading",
+                      "give a table with a header row, e.g. \"sample;mould;density (kg/m3);slump (mm);spread (mm)\"; "
+                      "a workbook needs it on its first sheet"});
     return table;
   }
   take_units(*layout);
