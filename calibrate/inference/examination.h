@@ -21,9 +21,9 @@ std::string reason_for(bool confirmed, std::size_t packings);
 /// Simulates after a search to find equivalent materials, then infers. It requests candidates that may fit equally
 /// well, as far apart as possible, each on one fresh packing; then, while simulations remain, those that would be
 /// listed as equivalent by prediction only. Central differences at the best candidate would cost as much and give
-/// slopes there only; these runs give them along the whole family and test its members. Requirements: the calibration's
-/// best candidate did not fail; the calibration outlives the examination. The result depends only on the answers: a
-/// resumed calibration infers the same.
+/// slopes only there; these simulations give slopes along the whole family and test its members. Requirements: the
+/// calibration's best candidate did not fail; the calibration outlives the examination. The result depends only on the
+/// answers: a resumed calibration infers the same.
 class Examination {
  public:
   /// `training_data`: converts responses. `simulations`: points on one packing that may be spent.

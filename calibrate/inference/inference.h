@@ -28,8 +28,8 @@ void spread_out(std::vector<UnitPoint>& chosen, const std::vector<UnitPoint>& po
 /// The half of the points with the smaller distances.
 std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector<UnitPoint>& points);
 
-/// Points of which every fitted reading is expected within one standard deviation of the measurement, or as near as
-/// that of the recommended point. Excludes points where the response jumps, unless they were simulated.
+/// Points at which every fitted reading is expected within one standard deviation of the measurement, or as near to it
+/// as at the recommended point. Excludes points where the response jumps, unless they were simulated.
 std::vector<UnitPoint> fitting(const ResponseModel& model, const std::vector<UnitPoint>& points,
                                const UnitPoint& recommended);
 

@@ -41,7 +41,7 @@ struct Ends {
 };
 
 /// Central 95 % of the sample: 2.5 % beyond each end, also if the other end is the study's bound. Only ends that look
-/// sharp count as set by the data, which makes them too sharp on average: with all 5 % beyond a single end only 88 % of
+/// sharp count as set by the data, so such ends are too sharp on average: with all 5 % beyond a single end only 88 % of
 /// the intervals of fifty twins contained the truth (tests/twins).
 Ends ends_of(std::vector<double> coordinates) {
   std::ranges::sort(coordinates);

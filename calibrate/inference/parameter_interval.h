@@ -17,7 +17,7 @@ struct ParameterInterval {
   double recommended = 0;
   double lower = 0, upper = 0;                    ///< 95 %, all parameters free; the study's bound if the data set none
   bool lower_known = false, upper_known = false;  ///< the data set this end, not the study's bound
-  double held_lower = 0, held_upper = 0;          ///< 95 %, others held at the recommended values; within the above
+  double held_lower = 0, held_upper = 0;          ///< 95 %, others held at the recommended values; within lower..upper
   bool held_lower_known = false, held_upper_known = false;  ///< as above
   double fitting_lower = 0, fitting_upper = 0;              ///< of materials expected to fit, others free
   std::optional<Prior> prior;                               ///< of the study; included in all of these
@@ -63,7 +63,7 @@ std::vector<Combination> combinations_of(const ResponseModel& model, const std::
                                          const UnitPoint& at);
 
 /// Widens a combination to the sample's standard deviation along it, because slopes at one point underestimate it for a
-/// curved posterior. The sample's replaces it if there is one parameter only.
+/// curved posterior. If there is only one parameter, the sample's standard deviation replaces that of the combination.
 void heed_sample(Combination& combination, const TrainingData& evidence, const Moments& moments);
 
 }  // namespace pastefit

@@ -166,7 +166,7 @@ bool measurable(const std::string& name) {
   return kind && kind->advised;
 }
 
-/// True if the model meets a reading; repeating one that it misses by far would mislead.
+/// True if the model reproduces a reading; advice to repeat a reading that the model misses by far would mislead.
 bool met(const ResponseModel& model, std::size_t reading, const UnitPoint& recommended) {
   const ReadingTrainingData& evidence = model.training_data().readings[reading];
   if (!evidence.measured) return true;

@@ -261,8 +261,8 @@ double ResponseModel::log_likelihood(const UnitPoint& point) const {
     return Eigen::MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
   };
   const double by_laboratory = half_log_determinant(of_laboratory);
-  // Where the predictive variance is large, the readings of the neighbouring simulations of one parameter limit the
-  // model.
+  // With one parameter, the readings of neighbouring simulations limit the likelihood where the predictive variance is
+  // large.
   const double met =
       std::min(-0.5 * of_both.matrixL().solve(differences).squaredNorm(), trust_->log_likelihood(point[0]));
   double sum = met - by_laboratory - independent_ * (half_log_determinant(of_both) - by_laboratory);

@@ -33,8 +33,8 @@ namespace pastefit {
 ///     -(d' C^-1 d + log det L + n/N (log det C - log det L))/2,   n = (tr R)^2/tr(R^2),
 /// R: correlation matrix of the N fitted readings over all simulations, n: effective number of independent ones. Two
 /// heights and two spreads of one heap are nearly one number: without the factor n/N a candidate of large predictive
-/// variance would lose likelihood for each of them, and regions without simulations would appear excluded. If one
-/// parameter is free and the response jumps, neighbouring simulations replace the models (`SurrogateTrust`).
+/// variance would lose likelihood for each of these readings, and regions without simulations would appear excluded. If
+/// one parameter is free and the response jumps, neighbouring simulations replace the models (`SurrogateTrust`).
 class ResponseModel {
  public:
   explicit ResponseModel(TrainingData evidence);
@@ -45,8 +45,8 @@ class ResponseModel {
   /// Change of the mean reading between two candidates (`ReadingModel::change`); nothing where the models are not
   /// trusted.
   std::optional<ReadingModel::Prediction> change(std::size_t reading, const UnitPoint& from, const UnitPoint& to) const;
-  /// Expected reading: of the model; where that is not trusted, the mean of the candidate's own simulations if there
-  /// are any.
+  /// Expected reading: that of the model or, where the model is not trusted, the mean of the candidate's own
+  /// simulations, if any.
   double expected(std::size_t reading, const UnitPoint& point) const;
   /// True if `expected` may be reported: the model is trusted at the candidate, or it was simulated.
   bool is_known(const UnitPoint& point) const;

@@ -10,7 +10,7 @@ namespace pastefit {
 namespace {
 
 constexpr double kJump = 10;         // [standard deviations of the measurement]
-constexpr double kJumpAlone = 3;     // the same for one parameter, whose neighbours are as informative as a model
+constexpr double kJumpAlone = 3;     // the same for one parameter: neighbours are then as informative as a model
 constexpr double kScatter = 4;       // [standard deviations between packings of one candidate]
 constexpr std::size_t kNearest = 2;  // sites for each parameter
 

@@ -32,8 +32,8 @@ double log_normal_share(double z) {
 
 }  // namespace
 
-/// Moment matching: the mean reading m is normal with (mean, `predictive_variance`) without the bound; the normal
-/// observation gives it the mean and variance that it has under the likelihood Phi((bound - m)/noise).
+/// Moment matching. Without the bound, the mean reading m is normal with (mean, `predictive_variance`). The normal
+/// observation gives m the mean and variance that m has under the likelihood Phi((bound - m)/noise).
 void ReadingModel::Row::match(double mean, double predictive_variance) {
   const double total = predictive_variance + noise * noise;
   const double z = std::clamp((answers.mean - mean) / std::sqrt(total), -30.0, 30.0);

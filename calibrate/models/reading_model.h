@@ -45,7 +45,7 @@ class ReadingModel {
     // Standardised: less the mean of all rows, over their standard deviation.
     Replicates answers = {};              // or the single bound
     double observed = 0, variance = 1e9;  // of the equivalent normal observation
-    double log_weight = 0;                // its factor, so that it has the evidence of the bound
+    double log_weight = 0;                // factor of this observation that gives it the evidence of the bound
 
     /// Replaces a bound by a normal observation, given mean and variance of the mean reading without the bound.
     void match(double mean, double predictive_variance);
@@ -55,8 +55,8 @@ class ReadingModel {
   ReadingModel(std::span<const UnitPoint> sites, std::span<const Answer> answers);
 
   Prediction predict(const UnitPoint& point) const;
-  /// Change of the mean reading from one point to another. Its variance is smaller than the sum of both: the errors of
-  /// neighbouring points are correlated.
+  /// Change of the mean reading from one point to another. Its variance is smaller than the sum of the variances of
+  /// both means, because errors of neighbouring points are correlated.
   Prediction change(const UnitPoint& from, const UnitPoint& to) const;
   /// Standard deviation of one simulation about its mean, where that mean is `mean`.
   double noise_at(double mean) const;

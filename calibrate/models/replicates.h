@@ -32,9 +32,9 @@ struct Sites {
 Sites sites_of(std::span<const UnitPoint> points);
 
 /// Variance between the packings of a point. At the transition from heaps that keep their shape to heaps that shear
-/// off, single materials do either, depending on the packing: their mean reading may equal the measurement although no
-/// heap does. Method: kernel regression over the unit cube of the squared deviations of simulations from the mean
-/// expected at their point; the harmless variance enters everywhere as a few further simulations.
+/// off, one material does both, depending on the packing: its mean reading may equal the measurement although no heap
+/// does. Method: kernel regression over the unit cube of the squared deviations of simulations from the mean expected
+/// at their point; the harmless variance enters everywhere as a few further simulations.
 class ReplicateVariance {
  public:
   /// `harmless`: variance of one simulation below which scatter does not matter, > 0. Shapes: n points of the unit

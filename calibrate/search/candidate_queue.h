@@ -35,7 +35,7 @@ struct CandidateResult {
   Evaluation evaluation;
 };
 
-/// Queue between the phases of a search and whoever simulates. Each candidate is asked once. A phase gets its answers
+/// Queue between the phases of a search and the simulators. Each candidate is requested once. A phase gets its answers
 /// only after all of them have arrived, so that the search depends on the answers and the order of asking, not on their
 /// timing. No call blocks.
 class CandidateQueue {
@@ -45,7 +45,7 @@ class CandidateQueue {
 
   // For the phases.
   const Scoring& scoring() const { return scoring_; }
-  /// Remaining points on a packing; only answers that a phase has read count as spent.
+  /// Remaining simulations of a point on a packing; an answer counts as spent only when a phase has read it.
   int budget_left() const { return std::max(0, simulations_ - spent_) / scoring_.simulations_each(); }
   bool stop_requested() const { return stopped_; }
   /// Sets the purpose of later candidates.
@@ -55,10 +55,10 @@ class CandidateQueue {
                                Fidelity fidelity, bool may_end_early);
   /// True if these candidates are answered or a stop was requested.
   bool is_answered(std::span<const std::size_t> numbers) const;
-  /// Their answers, which count as spent from now on. Requirement: `is_answered`.
+  /// Answers of these candidates, which count as spent from now on. Requirement: `is_answered`.
   std::vector<Evaluation> answers(std::span<const std::size_t> numbers);
 
-  // For whoever simulates; see `Search`.
+  // For the simulators; see `Search`.
   std::vector<Candidate> suggest(std::size_t count);
   void ingest(std::span<const CandidateResult> results);
   void stop() { stopped_ = true; }

@@ -19,8 +19,8 @@ class CandidateRanking {
   CandidateRanking(const EvaluationHistory& history, std::span<const UnitPoint> refuted);
 
   const Surrogate& surrogate() const { return surrogate_; }
-  /// Completely simulated candidate of largest expected margin; of least expected misfit if all margins are below
-  /// `worthwhile_margin`. No point if there is none.
+  /// Completely simulated candidate of largest expected margin; if all margins are below `worthwhile_margin`, the one
+  /// of least expected misfit. No point if there is none.
   const UnitPoint& best() const { return best_; }
   /// Completely simulated candidate of least expected misfit. No point if there is none.
   const UnitPoint& most_plausible() const { return most_plausible_; }
@@ -41,8 +41,8 @@ class CandidateRanking {
   double chance_of_readings(const UnitPoint& point, double tolerances) const;
 
   /// Expected margin: mean of max(0, 1 - w), w the error of the worst fitted reading in tolerances, with the factors
-  /// for heaps and priors of `chance_of`. Unlike the misfit it does not let one exact reading compensate for another
-  /// that misses. `model`: replaces the ranking's surrogate, e.g. by one with fantasised answers.
+  /// for heaps and priors of `chance_of`. In a misfit an exact reading can compensate for one that misses, in this
+  /// margin it cannot. `model`: replaces the ranking's surrogate, e.g. by one with fantasised answers.
   double expected_margin(const UnitPoint& point) const { return expected_margin(surrogate_, point); }
   double expected_margin(const Surrogate& model, const UnitPoint& point) const;
 

@@ -124,7 +124,7 @@ bool ProposalPhase::advance() {
   EvaluationHistory& history = state_.history;
   if (awaits_ == Awaits::candidate) {
     const Response& response = history.answers().front();
-    // Its lower bound does not rule it out: the remaining readings decide.
+    // Its misfit is a lower bound that does not rule the candidate out: the remaining readings decide.
     if (is_feasible(response) && response.censored && response.misfit < known_->misfit_of_best() &&
         state_.may_go_on()) {
       awaits_ = Awaits::whole;
@@ -169,7 +169,7 @@ std::unique_ptr<SearchPhase> candidate_phase(StrategyState& state, bool with_coa
   return nullptr;
 }
 
-/// A descent on the readings cannot reduce rejections, so these do not start one.
+/// Rejected heaps do not start a refinement, because a descent on the readings cannot reduce rejections.
 std::unique_ptr<SearchPhase> refinement_phase(StrategyState& state) {
   if (!state.may_go_on() || noise_of(state) > state.history.allowed_misfit()) return nullptr;
   const CandidateRanking known = state.ranking();

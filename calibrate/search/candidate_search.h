@@ -17,8 +17,8 @@ namespace pastefit {
 
 /// Runs an optimiser directly on the simulations, on all common packings. Optimisers call back and cannot wait: at an
 /// unknown answer the optimiser is aborted, and restarted with all known answers after the simulation has finished.
-/// Requirement: the optimiser is deterministic, as those of `calibrate/optimisers` are. Its repeated computing time is
-/// negligible compared with a simulation.
+/// Requirement: the optimiser is deterministic, as those of `calibrate/optimisers` are. The computing time of the
+/// restarts is negligible compared with a simulation.
 class SimulatedMinimisation : public SearchPhase {
  public:
   /// `minimise`: runs the optimiser on the given problem. `goal`: error at or below which a candidate is good enough;
@@ -40,8 +40,8 @@ class SimulatedMinimisation : public SearchPhase {
 };
 
 /// Proposes candidates from the surrogate and takes answers in the order of the proposals, until a candidate is likely
-/// to be confirmed. Proposal k uses the answers up to k - 1 - max_pending and only the points of later ones, so that
-/// the order in which simulations finish does not matter.
+/// to be confirmed. Proposal k uses the answers up to k - 1 - max_pending, and of later candidates only the points, so
+/// that the order in which simulations finish does not matter.
 class ProposalPhase : public SearchPhase {
  public:
   ProposalPhase(StrategyState& state, bool with_coarse)

@@ -8,8 +8,8 @@ namespace {
 
 constexpr double hardly_likely = 0.1;          // probability of success below which a confirmation is broken off
 constexpr std::size_t most_confirmations = 8;  // largest number of fresh packings over that of the study
-// The same if only the share of rejected heaps is undecided: another candidate is found with fewer simulations than
-// needed to bound a share close to the limit.
+// The same number if only the share of rejected heaps is undecided: to find another candidate takes fewer simulations
+// than to decide a share close to the limit.
 constexpr std::size_t worthwhile_confirmations = 4;
 
 }  // namespace

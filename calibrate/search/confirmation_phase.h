@@ -20,8 +20,8 @@ class ConfirmationPhase : public SearchPhase {
   /// `SearchOptions::max_pending` all are simulated at once, because workers would be idle. `asked`: candidate to
   /// confirm; empty: the best of the ranking.
   void begin(bool whatever_it_does, const UnitPoint& asked = {});
-  /// Completes the reported confirmation if it was broken off or is undecided: its remaining packings, and half as many
-  /// at a time while undecided and affordable. The result may reverse the decision to break off.
+  /// Completes the reported confirmation if it was broken off or is undecided: simulates its remaining packings, then
+  /// half as many at a time while undecided and affordable. The result may reverse the decision to break off.
   void begin_last();
   bool advance() override;
 

@@ -161,7 +161,7 @@ void EvaluationHistory::weigh(Response& response) const {
 }
 
 Eigen::ArrayXd EvaluationHistory::variance_between_packings() const {
-  constexpr double most = 4;  // largest weight of a candidate: those that shear off on some packings have many
+  constexpr double most = 4;  // largest weight of a candidate: a candidate that shears off on some packings has many
   std::vector<std::vector<WeighedSquare>> squares(static_cast<std::size_t>(residuals()));
   for (std::size_t i = 0; i < singles_.size(); ++i) {
     if (!is_whole(singles_[i])) continue;

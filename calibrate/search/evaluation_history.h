@@ -18,9 +18,9 @@ namespace pastefit {
 ///
 /// Each residual is divided by sqrt(1 + v/m), which gives noisy readings less weight; v: its variance between packings
 /// in squared standard deviations of the measurement, m: number of common packings. v is the typical variance
-/// (`typical_variance`) of the candidates that ran on several packings: single candidates that keep their shape on some
-/// packings and shear off on others would suppress every reading. The weights change only between phases, so that an
-/// optimiser's objective is constant.
+/// (`typical_variance`) of the candidates that ran on several packings. With the mean variance, a few candidates that
+/// keep their shape on some packings and shear off on others would suppress every reading. The weights change only
+/// between phases, so that an optimiser's objective is constant.
 class EvaluationHistory {
  public:
   /// `earlier`: responses known at the start, each on one packing.
@@ -40,11 +40,11 @@ class EvaluationHistory {
   bool stop_requested() const { return queue_.stop_requested(); }
   int budget_left() const;  ///< points on a packing, less those reserved or pending
 
-  /// Request points on the same packings: complete, possibly stopped early, or with coarse grains. The answers are
-  /// available when the phase is called again. Requirement: no request is open.
+  /// Requests all points on all these packings: completely, possibly stopped early (`try_out`), or with coarse grains.
+  /// The answers are available when the phase is called again. Requirement: no request is open.
   void evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
   void try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
-  /// Answers go to `coarse_singles`, weighted as the others.
+  /// The answers go to `coarse_singles`, weighted as those of fine grains.
   void evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
   /// True if the open request is not answered yet.
   bool is_waiting() const { return awaited_ && !queue_.is_answered(awaited_->numbers); }

@@ -19,7 +19,7 @@ std::vector<std::uint64_t> packings_of_coarse(std::uint64_t seed, int count);
 ///     bias = mean over the feasible fine simulations of (their residuals - coarse surrogate at their point),
 /// one for each reading; 0 without fine simulations. Requirements: `coarse` and `fine` are on one packing each, with
 /// equally weighted residuals. Because the search simulates every candidate with coarse grains first, the surrogate has
-/// data at the fine points. Limit: one bias for all candidates; it is that near the target, where the fine simulations
+/// data at the fine points. Limit: all candidates get the same bias, that near the target, where the fine simulations
 /// concentrate.
 std::vector<Response> corrected(std::span<const Response> coarse, std::span<const Response> fine);
 

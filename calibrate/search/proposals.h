@@ -13,14 +13,14 @@ inline constexpr double same_point = 0.01;
 
 /// Acquisition of the default strategy: the point of largest expected improvement on the least expected misfit
 /// (`maximise_expected_improvement`). If that improvement is negligible, the point of largest expected margin
-/// (`CandidateRanking::expected_margin`), if it exceeds that of the best candidate: each reading has to be within its
-/// tolerance, not their sum. A proposal closer than `same_point` to a known point is that point on another packing.
+/// (`CandidateRanking::expected_margin`), if this margin, that of the worst reading, exceeds the best candidate's. A
+/// proposal closer than `same_point` to a known point is that point on another packing.
 ///
 /// Pending candidates enter the surrogate with fantasised means (Snoek, Larochelle & Adams 2012, section 3.2, with one
 /// draw), so that the next proposal is made for a plausible outcome. The draw of a candidate is always the same.
 /// Replicate scatter is left out, because it would scatter the proposals.
 ///
-/// With coarse grains, a proposal is simulated there first and moved until no other point is better within the noise.
+/// With coarse grains, a proposal is first simulated with these, and moved until no point is better within the noise.
 ///
 /// Requirement: the arguments of the constructor outlive the object.
 class Proposals {
@@ -38,7 +38,7 @@ class Proposals {
   std::optional<UnitPoint> promising(const CandidateRanking& ranking) const;
   /// Moves the proposal to the optimum with coarse grains; false if it requested a simulation.
   bool try_with_coarse_grains();
-  /// The known point if `proposal` is close to one; none if that is pending.
+  /// `proposal`, or the known point that it is close to; none if that point is pending.
   std::optional<UnitPoint> distinct(const UnitPoint& proposal) const;
   void fantasise_answers(Surrogate& model) const;
 

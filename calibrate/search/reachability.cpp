@@ -145,8 +145,8 @@ std::vector<UnitPoint> censored(std::span<const Response> singles, std::uint64_t
   return points;
 }
 
-/// Claims that a reading is out of reach; `hopeful`: point of least bound. None if its bound meets the measurement or
-/// too few simulations finished.
+/// Claims that a reading is out of reach; `hopeful`: point of least bound. None if this bound meets the measurement or
+/// too few simulations have finished.
 std::optional<OutOfReach> claim(const Nearing& approach, const GaussianProcess& model, const Allowance& allowance,
                                 const UnitPoint& hopeful) {
   const double at_best = miss_at(model, hopeful, allowance);

@@ -64,7 +64,7 @@ class ReachPhase : public SearchPhase {
 /// What has to meet the measurement: a single simulation, noise included, or the mean over packings.
 enum class ReachOf { simulations, means };
 
-/// The same from existing simulations. One that was stopped early counts as not finished.
+/// The same test on existing simulations. A simulation that was stopped early counts as not finished.
 std::optional<OutOfReach> known_out_of_reach(const EvaluationHistory& history, ReachOf what);
 
 /// True if the simulation's reading is at `at_best` or nearer to the measurement.

@@ -66,7 +66,7 @@ void Strategy::begin_candidates() {
   begin(Stage::candidates, candidate_phase(state_, with_coarse_));
 }
 
-/// A minimiser's result already is a point of least misfit.
+/// Only for the surrogate: the result of another optimiser is a point of least misfit already.
 void Strategy::begin_recommendation() {
   const bool by_surrogate = find_strategy(state_.options.strategy)->kind == StrategyKind::surrogate;
   const bool chooses = by_surrogate && StrategyState::goal_is_met(state_.ranking());

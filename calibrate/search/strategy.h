@@ -15,17 +15,17 @@ namespace pastefit {
 
 /// Finds a candidate within the tolerances and confirms it on packings that the search has not used.
 ///   1. Screening: space-filling points on one packing, all at once; earlier results count as screening. If a reading
-///      is out of reach (`reachability.h`), the nearest candidate is confirmed and the search ends, unless its
-///      simulations refute the claim. With `coarse`, the screening and every candidate of the default strategy run with
-///      coarse grains first. Coarse results enter only the surrogate, corrected by the bias between the grain sizes
-///      (`low_fidelity.h`); they are not in the budget or in `history`.
+///      is out of reach (`reachability.h`), the nearest candidate is confirmed and the search ends, unless simulations
+///      of this candidate refute the claim. With `coarse`, the screening and every candidate of the default strategy
+///      run with coarse grains first. Coarse results enter only the surrogate, corrected by the bias between the grain
+///      sizes (`low_fidelity.h`); they are not in the budget or in `history`.
 ///   2. Search. "default": a Gaussian process of each residual, trained on all simulations. The point of largest
 ///      acquisition (`proposals.h`) is simulated on a fresh packing and may end early (`evaluate/simulation.h`, as in
-///      the screening); it is completed if its bound does not rule it out. This repeats until a candidate is more
-///      likely than not to be confirmed (`candidate_ranking.h`), or the acquisition is negligible. Up to `max_pending`
-///      candidates are pending at the next proposal. An NLopt algorithm by name, or Ceres ("levenberg_marquardt",
-///      "dogleg"): runs on the simulations from the best screening point, on all common packings, with half of the
-///      remaining budget.
+///      the screening); a simulation that ended early is completed if its bound does not rule the point out. This
+///      repeats until a candidate is more likely than not to be confirmed (`candidate_ranking.h`), or the acquisition
+///      is negligible. Up to `max_pending` candidates are pending at the next proposal. An NLopt algorithm by name, or
+///      Ceres ("levenberg_marquardt", "dogleg"): runs on the simulations from the best screening point, on all common
+///      packings, with half of the remaining budget.
 ///   3. Refinement: Ceres on the residuals on the common packings, if no candidate's readings are likely to be
 ///      confirmed and the noise of these packings is below the allowed misfit.
 ///   4. Recommendation, by the default strategy: of the candidates that are likely to be confirmed, the one of least
@@ -33,9 +33,9 @@ namespace pastefit {
 ///   5. Confirmation of this candidate on fresh packings: a quarter first, and no more if success is then unlikely;
 ///      all at once with `max_pending`; up to eight times the study's number while undecided (`confirmation_phase.h`).
 ///      A candidate that is not confirmed is excluded, and the search continues from 2 with all results. Limit: a mean
-///      that is judged up to fifteen times is accepted more often than one that is judged once. Where one packing
-///      scatters by two tolerances, a material that misses by 1.2 of them is confirmed with a probability of 0.35
-///      instead of 0.23 (by 0.5 tolerances: 0.12 instead of 0.11; tests/results/search.md).
+///      that is judged up to fifteen times is accepted more often than one that is judged once. A material that misses
+///      by 1.2 tolerances is confirmed with probability 0.35 instead of 0.23 if packings scatter by 2 tolerances, and
+///      with 0.12 instead of 0.11 if they scatter by 0.5 tolerances (tests/results/search.md).
 /// The goal of 2 and 3 is stricter than the tolerance because of the winner's curse; it also requires every parameter
 /// within two standard deviations of its prior. The budget of a confirmation is reserved throughout. Requirements:
 /// `validate(options, scoring.parameters(), scoring.simulations_each())` is empty; the arguments of the constructor

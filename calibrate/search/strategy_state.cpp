@@ -6,8 +6,8 @@ namespace {
 constexpr double goal_share = 0.6;     // of the tolerances: within it a candidate is likely to be confirmed
 constexpr double likely_enough = 0.5;  // probability of this at which a confirmation starts
 
-/// Or probability of being within the tolerances themselves. Good heaps have a top shift of 30 of the allowed 40 mm, so
-/// that 0.97 cost 200 further simulations for mix 79; a confirmation costs 8.
+/// Alternative: probability of being within the tolerances themselves. With 0.97 mix 79 took 200 further simulations,
+/// since its good heaps shift by 30 mm of the allowed 40 mm; a confirmation takes 8.
 constexpr double likely_to_hold = 0.75;
 
 template <class Chance>

@@ -48,9 +48,9 @@ class StrategyState {
   CandidateRanking ranking() const { return {history, refuted}; }
   /// True if the candidate is likely enough to be confirmed.
   static bool is_likely(const CandidateRanking& ranking, const UnitPoint& candidate);
-  /// The same for the best one; false if there is none.
+  /// `is_likely` for the best candidate; false if there is none.
   static bool goal_is_met(const CandidateRanking& ranking);
-  /// The same without the factor for rejected heaps.
+  /// `goal_is_met` without the factor for rejected heaps.
   static bool readings_will_do(const CandidateRanking& ranking);
   /// Error at which an optimiser may end; 0 (none) if there are priors.
   double optimisers_goal() const;

@@ -24,8 +24,8 @@ constexpr double harmless_share = 0.5;
 /// Tolerances beyond which residuals may be compressed.
 constexpr double far_off = 4;
 
-/// Logarithmic beyond `far`, with continuous slope. For a heap that keeps its shape, 200 or 210 mm off makes no
-/// difference, and a model that follows the cliff is less accurate near the measurement.
+/// Logarithmic beyond `far`, with continuous slope. Whether a heap that keeps its shape misses by 200 or 210 mm does
+/// not matter, and a model that follows the cliff is less accurate near the measurement.
 double compressed(double residual, double far) {
   if (std::abs(residual) <= far) return residual;
   return std::copysign(far * (1 + std::log(std::abs(residual) / far)), residual);
@@ -63,8 +63,8 @@ Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tole
   if (failed.sum() > 0) failures_.emplace(all, failed);
 }
 
-/// Some readings have a cliff; smooth ones would only be distorted: with compression always on, two searches met
-/// neither concrete mix 66 nor the two-step twin.
+/// Compression helps readings with a cliff and distorts smooth ones: if all were compressed, two searches met neither
+/// concrete mix 66 nor the two-step twin.
 void Surrogate::compress_if_likelier(const std::vector<UnitPoint>& points, Eigen::VectorXd& values, double far) {
   if (values.cwiseAbs().maxCoeff() <= far) return;
   const Eigen::VectorXd nearer = values.unaryExpr([&](double residual) { return compressed(residual, far); });
