@@ -154,7 +154,7 @@ class Tally {
   Doubles<kHalf> sum_[EnergySums::kinds][EnergySums::kLanes / kHalf];
 };
 
-/// Reads the history of a batch; roll only if the rolling law has one.
+/// Reads the history of a batch; `roll` only if the rolling law uses it.
 template <class Rolling>
 PASTEFIT_INLINE ContactHistory<Real> recall(const ContactBatch& c, int lane) {
   ContactHistory<Real> history;
@@ -243,7 +243,7 @@ PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const ConstantsOf<Rea
   add_loads(task, i, j, force, zero, none, none, pull.slope);
 }
 
-/// Pairs without contact in a viscous liquid: also lubrication, which is their only damper and history.
+/// Pairs without contact in a viscous liquid: attraction, and lubrication as the only damper, with its history.
 template <class Attraction>
 PASTEFIT_INLINE void lubricate_pairs(const KernelTask& task, const ConstantsOf<Real>& pair, Real dt, const Lanes& i,
                                      const Lanes& j, const Pairing& p, ContactBatch& c, int lane, Tally& tally) {
@@ -284,8 +284,8 @@ PASTEFIT_INLINE void lubricate_pairs(const KernelTask& task, const ConstantsOf<R
   add_loads(task, i, j, force, contact_force.damping, lever_a * turning, lever_b * turning, pull.slope);
 }
 
-/// True if a pair of the lanes is in contact, or was so at the last step and must reset its history. Otherwise contacts
-/// have neither force nor history.
+/// True if a pair of the lanes is in contact, or was in contact at the last step and must reset its history. Otherwise
+/// the pairs have neither force nor history.
 PASTEFIT_INLINE bool some_touch(const Pairing& p, const ContactBatch& c, int lane) {
   return any(p.overlap > Real(0.0)) || any(Real::load(c.sqrt_contact_radius + lane) > Real(0.0));
 }

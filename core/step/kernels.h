@@ -18,8 +18,8 @@
 
 namespace pastefit {
 
-/// A stretch of a list's batches: pairs that touched when they were chosen, then pairs that may touch. Batches of the
-/// latter are computed in full only if one of their pairs does.
+/// A stretch of a list's batches: pairs that touched when they were chosen, then (from `near`) pairs that may touch. A
+/// batch of pairs that may touch is computed in full only if one of its pairs touches.
 struct Stretch {
   std::int32_t begin, near, end;
 };
@@ -48,12 +48,12 @@ struct KernelTask {
   double dt;
   EnergySums* energy;
   Energies energies;
-  bool fetches_ahead;  ///< memory that it soon comes to: worth its instructions where grains and lists leave the cache
+  bool fetches_ahead;  ///< prefetch the next batches: faster if grains and lists do not fit into the cache
 };
 
 constexpr double kRunawaySpeed = 100;  // [m/s]; nothing in a laboratory test comes near it
 
-/// Grains near a wall, which are to be found on it.
+/// Grains near a wall, for which the nearest point of the wall is wanted.
 struct WallTask {
   const Motion* motion;
   const ContactBatch* contacts;
@@ -63,7 +63,7 @@ struct WallTask {
   double overlap_limit;  ///< over the radius of a grain
 };
 
-/// Finds them; returns one that is deeper in the wall than the limit, or -1. `shape`: the wall's.
+/// Finds the nearest points; returns a grain that is deeper in the wall than the limit, or -1. `shape`: the wall's.
 template <class Shape>
 using FindOnWall = std::int32_t (*)(const WallTask&, const Shape& shape);
 
@@ -79,13 +79,13 @@ struct MoveTask {
   double gravity, drag;
 };
 
-/// What grains did in a step.
+/// Summary of the motion of some grains in a step.
 struct Moved {
   double fastest_square = 0;    ///< [m^2/s^2]
   double stiffest = 0;          ///< stiffness over mass [1/s^2]
   double dissipation_drag = 0;  ///< [J]
-  bool exceeded = false;        ///< one has exceeded its bound; a position that is not a number has
-  std::int32_t runaway = -1;    ///< one beyond any speed, or whose speed is not a number
+  bool exceeded = false;        ///< a grain has exceeded its bound, or its position is not a number
+  std::int32_t runaway = -1;    ///< a grain with an impossible speed, or one that is not a number
 };
 
 /// Laws are composed at compile time: one function per combination, chosen once per run.
@@ -93,10 +93,10 @@ using Kernel = void (*)(const KernelTask&);
 
 inline constexpr std::size_t kCombinations = NormalLaws::size * Attractions::size * RollingLaws::size;
 
-/// Kernels of one kind, by `combination`; empty where laws do not go together.
+/// Kernels of one kind, by `combination`; empty where laws cannot be combined.
 using Kernels = std::array<Kernel, kCombinations>;
 
-/// Where the kernels of these laws stand in the table.
+/// Index of the kernels of these laws in the table.
 constexpr std::size_t combination(NormalLaw normal, BridgeShape attraction, RollingModel rolling) {
   return (row_of(normal) * Attractions::size + row_of(attraction)) * RollingLaws::size + row_of(rolling);
 }
@@ -126,13 +126,13 @@ extern const KernelTable kernels;
 
 /// The kernels this processor runs, the widest first.
 std::vector<const KernelTable*> kernels_this_processor_runs();
-/// The widest of them.
+/// The widest kernels that this processor runs.
 const KernelTable& kernels_of_this_processor();
 
 /// Chooses the kernels of runs whose `StepOptions` name none: those of "sse2", "avx2" or "avx512" instead of the widest
-/// that this processor runs. Returns false, and changes nothing, if it does not run them. Requirement: no run is under
-/// way. Other processors than x86-64 have one word: "neon" on AArch64, "simd128" in WebAssembly. The bits of four lanes
-/// differ from those of AVX2 and AVX-512 (core/README.md, Determinism).
+/// that this processor runs. Returns false, and changes nothing, if the processor does not run these. Requirement: no
+/// run is under way. Other processors than x86-64 have one word: "neon" on AArch64, "simd128" in WebAssembly. The bits
+/// of four lanes differ from those of AVX2 and AVX-512 (core/README.md, Determinism).
 bool use_kernels(std::string_view instruction_set);
 
 /// The words that `use_kernels` takes on this processor, the widest first: "avx512, avx2, sse2".

@@ -22,7 +22,7 @@ PASTEFIT_INLINE Singles<kListed> unaligned(const float* numbers) {
 }
 
 /// Writes the grains of the lanes that are within, one after the other; whole packs may be written. Returns how many.
-/// Without branches: whether a pair is near cannot be predicted.
+/// It has no branches, because whether a pair is near cannot be predicted.
 PASTEFIT_INLINE std::int32_t put_within(Singles<kListed>::Mask within, const std::int32_t* grain, int lanes,
                                         std::int32_t* near) {
 #ifdef __AVX512F__
@@ -73,7 +73,7 @@ PASTEFIT_INLINE Looked gathered(const Value& value) {
   return gathered(value, std::make_index_sequence<kLooked>{});
 }
 
-/// Pairs as they are looked at.
+/// Pairs whose distance is examined.
 struct LookedPairs {
   Looked square;  ///< of the distance
   Looked touch;   ///< sum of the radii
@@ -111,7 +111,7 @@ PASTEFIT_INLINE Looked::Mask nearness_of(const NearnessTask& task, const LookedP
   return found;
 }
 
-/// Seldom is one deeper than all before it.
+/// Takes one branch for all pairs, because a pair is seldom deeper than all before it.
 PASTEFIT_INLINE void note_deepest(const LookedPairs& p, const std::int32_t* i, Deepest& deepest) {
   const Looked smallest = smaller(p.one, p.other), deeper = p.touch - Looked(deepest.overlap) * smallest;
   const auto is_deeper = p.square < deeper * deeper;

@@ -14,7 +14,7 @@ namespace {
 constexpr int kFound = PASTEFIT_WIDTH;
 using Found = Doubles<kFound / 2>;
 
-/// Their centres, and the radii stored next to them.
+/// Centres of the grains, and the radii stored next to these.
 struct Spheres {
   BasicVec3<Found> centre;
   Found radius;

@@ -55,13 +55,13 @@ struct RunOptions {
   std::int64_t step_limit = 20'000'000;        ///< a longer run fails with `step_limit`
   double watch_interval_s = 0.01;              ///< simulated time between two calls of `watch`
   std::function<bool(const Snapshot&)> watch;  ///< called at that interval; returns false to stop the run
-  /// The same every `kStepsPerPulse` steps, for callers that must react quickly, however small the steps are.
+  /// As `watch`, but called every `kStepsPerPulse` steps, for callers that must react quickly even if steps are small.
   std::function<bool(const Snapshot&)> pulse;
   std::shared_ptr<const Packing> packing;     ///< filled mould to start from; empty: the run fills one
   std::shared_ptr<RunCheckpoint> checkpoint;  ///< if given: saves states of the run, and resumes from one
-  /// If given, the run ends as soon as the reading is certain to be too low, without the readings of its stage, or
-  /// after its stage if the reading is outside; `RunSummary::ended_early` is then true. Until then the run is the same,
-  /// bit for bit. The apparatus defines which reading is allowed and when it is certain.
+  /// If given, the run ends as soon as the reading is certain to be too low (without the readings of this stage), or
+  /// after this stage if the reading is out of range; `RunSummary::ended_early` is then true. Until then the run is the
+  /// same, bit for bit. The apparatus defines which reading is allowed and when it is certain.
   std::optional<Cutoff> cutoff;
 };
 

@@ -10,8 +10,8 @@
 namespace pastefit {
 
 /// Resumes an interrupted test in another process, with the same bits. The apparatus repeats everything from the
-/// beginning, but a wait of its runners (`Runner::run`, `settle`, ...) that had ended takes no step: it restores the
-/// world as it was then. The interrupted wait continues where it was. So an apparatus need not know about checkpoints,
+/// beginning. A wait of its runners (`Runner::run`, `settle`, ...) that had ended takes no step, but restores the world
+/// as it was at its end. The interrupted wait continues where it was. So an apparatus need not know about checkpoints,
 /// except for what its phases sum up step by step (`Runner::remember`).
 ///
 /// One checkpoint serves one call of `simulate`. Requirements: the state is of the same test, options (except
@@ -28,12 +28,12 @@ class RunCheckpoint {
   };
 
   /// `due`: true if a state is wanted, asked every `kStepsPerPulse` steps; `keep`: receives it. `state`: the last one
-  /// given to `keep` by the interrupted run; empty for a new run. Errors: throws `BadState` (core/step/state.h) if it
-  /// is no state at all; the resumed run does so if it is of another run.
+  /// given to `keep` by the interrupted run; empty for a new run. Errors: throws `BadState` (core/step/state.h) if
+  /// `state` is no state at all; the resumed run throws it if `state` is that of another run.
   RunCheckpoint(std::function<bool()> due, std::function<void(const std::string& state)> keep,
                 std::string_view state = {});
 
-  /// True if all of the state was used: otherwise it was of another run.
+  /// True if all of the state was used; otherwise the state was that of another run.
   bool is_told() const { return !interrupted_; }
 
   // For the runner.
@@ -42,7 +42,7 @@ class RunCheckpoint {
   const Wait* next_ended();
   /// The interrupted wait, once.
   std::optional<Wait> take_interrupted();
-  /// Adds a completed wait; returns its number. Of the runner's previous wait (`before`) only the visible part is kept.
+  /// Adds a completed wait; returns its number. Only the visible part of the runner's previous wait (`before`) is kept.
   std::size_t add(Wait ended, std::optional<std::size_t> before);
   std::size_t told() const { return told_; }  ///< number of completed waits used
   bool due() const { return due_(); }

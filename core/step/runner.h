@@ -39,12 +39,12 @@ class Runner {
   std::optional<Failure> run_until_rest(const Phase& phase, double longest_s,
                                         const std::function<bool(const World&)>& free);
 
-  /// Steps until the specimen is at rest or the phase is done, for at most `moved_s`, during which the test moves it,
-  /// plus `cap_s`. At the limit the run continues, marked as not settled, unless the specimen is too fast for valid
-  /// readings. With `RunOptions::fixed_wait_s`: steps for `moved_s` plus that time, at rest or not.
+  /// Steps until the specimen is at rest or the phase is done, for at most `moved_s` + `cap_s`; the test moves it for
+  /// `moved_s`. At the limit the run continues, marked as not settled, unless the specimen is too fast for valid
+  /// readings. With `RunOptions::fixed_wait_s`, the wait lasts `moved_s` plus this time, at rest or not.
   std::optional<Failure> settle(const Phase& phase, double cap_s, double moved_s = 0);
 
-  /// True if the last wait was for rest and reached it.
+  /// True if the last wait was for rest and ended at rest.
   bool rests() const { return progress_.rested; }
 
   /// Calls the watch now, independent of its interval: shows the end of a phase.

@@ -13,7 +13,7 @@ struct EnergySums;
 // Checks what a step assumes of a state that was read (`StateReader`): every index is valid, every list has the right
 // length, every number is finite and possible. Errors: all throw `BadState`.
 
-/// What waits never change: the grains except their motion, and kinds and sizes of the walls.
+/// Properties that waits never change: those of the grains except motion, and kinds and sizes of the walls.
 class Fixtures {
  public:
   explicit Fixtures(const World& world);

@@ -45,9 +45,9 @@ class Stepper {
   /// True if the next step will fail because of this one.
   bool has_failed() const { return runaway_ >= 0; }
   double time_step() const { return dt_; }
-  /// Smallest computed step so far [s]: what a fixed step should have been.
+  /// Smallest computed step so far [s]; a fixed step should not be larger.
   double smallest_advised_step() const { return time_step_.smallest(); }
-  /// As of the last step that was a multiple of `kBalanceInterval`.
+  /// Energy balance at the last step whose number was a multiple of `kBalanceInterval`.
   const EnergyBalance& energy_balance() const { return energy_balance_; }
   /// Continues the energy balance of a preceding run.
   void follow(const EnergyBalance& before);

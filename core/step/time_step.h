@@ -34,9 +34,9 @@ double viscous_step(const PairConstants& pair, double radius, double mass);
 double largest_viscosity(ContactModel model, double radius, double mass, const StepOptions& options = {});
 
 /// The step that a run takes: as computed, but constant for long. A step that follows the stiffness of a contact
-/// creates energy in every collision (14 % of the energy put in by a slump, in one case of the stress test). So it
-/// takes one of sixteen values per octave, decreases at once, and increases only to what two whole windows would have
-/// allowed.
+/// creates energy in every collision (14 % of the energy put in by a slump, in one case of the stress test). The step
+/// of a run therefore has one of sixteen values per octave, decreases at once, and increases only to what two whole
+/// windows would have allowed.
 class TimeStep {
  public:
   /// Takes the computed limit for the next step [s] and returns the step [s].
