@@ -24,7 +24,7 @@ constexpr double foot = 12 * inch;            // [mm]
 constexpr double pound_force = 4.4482216153;  // [N]
 constexpr double cubic_foot_m3 = 1e-9 * foot * foot * foot;
 
-constexpr std::array<Spelling, 37> spellings{{
+constexpr std::array<Spelling, 38> spellings{{
     {"mm", {"mm", "mm", 1}},
     {"cm", {"cm", "mm", 10}},
     {"m", {"m", "mm", 1000}},
@@ -62,6 +62,7 @@ constexpr std::array<Spelling, 37> spellings{{
     {"rad", {"rad", "deg", degrees}},
     {"°", {"degrees", "deg", 1}},
     {"rad_s", {"rad/s", "rad_s", 1}},
+    {"deg_s", {"degrees/s", "deg_s", 1}},
 }};
 
 /// Small letters, '_' for '/', no '^', and digits for superscripts.

@@ -56,7 +56,7 @@ Faults faults_of_text(const Result<std::vector<double>>& read) {
 
 /// For people.
 std::string unit_in_words(const ShortReading& reading) {
-  return reading.name == "mass" ? "kg" : reading.name == "angle" ? "degrees" : "mm";
+  return reading.name == "mass" ? "kg" : reading.key.ends_with("_deg") ? "degrees" : "mm";
 }
 
 /// Asks for each reading by its short name; an empty answer omits it.
@@ -66,7 +66,7 @@ bool ask_readings(Sheet& sheet, const SlumpTest& test) {
     const bool after_drop = one.key.starts_with("step2."), after_all = one.key.starts_with("after_drops.");
     const bool once = plate && plate->drops == 1, often = plate && plate->drops > 1;
     if ((after_drop && !once) || (after_all && !often)) continue;
-    if (one.name == "shift" || one.name == "mass" || one.name == "slump2") continue;
+    if (one.name == "shift" || one.name == "mass" || one.name == "slump2" || one.name == "slide-angle") continue;
     if (one.name == "angle" && !test.reading.flank) continue;
     const bool height = one.name == "height" && !sheet.readings.empty();  // a slump gives the height
     if (height) continue;
@@ -75,7 +75,7 @@ bool ask_readings(Sheet& sheet, const SlumpTest& test) {
             "; repeats as \"180, 175, 190\"; empty: not measured)",
         "", [&](const std::string& text) {
           return text.empty() ? Faults{}
-                              : faults_of_text(written_readings("", text, one.name == "angle" ? "deg" : "mm"));
+                              : faults_of_text(written_readings("", text, one.key.ends_with("_deg") ? "deg" : "mm"));
         });
     if (!answer) return false;
     if (!answer->empty()) sheet.readings.emplace_back(one.name, *answer);

@@ -8,7 +8,7 @@ namespace pastefit {
 
 std::string_view meaning_of_reading(std::string_view key) {
   using Meaning = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Meaning, 36> meanings{{
+  static constexpr std::array<Meaning, 37> meanings{{
       {"fill.mass_kg", "mass of the mould's content"},
       {"step1.height_mm", "height of the heap, as reading.height states"},
       {"step1.slump_mm", "height of the mould minus that of the heap, instead of height_mm"},
@@ -37,6 +37,7 @@ std::string_view meaning_of_reading(std::string_view key) {
       {"step2.plateau_width_mm", "length over which the top has at least 0.8 of the height at the axis"},
       {"after_drops.height_mm", "height of the heap after all drops, as reading.height states"},
       {"after_drops.spread_mm", "width of the heap after all drops, mean over all directions"},
+      {"tilt.slide_angle_deg", "inclination of the table at which the heap has slid by tilt.slide_mm"},
       {"level.rebound_height_mm", "of the ball on the level plate"},
       {"tilted.rebound_height_mm", "of the ball on the tilted plate"},
       {"tilted.spin_rad_s", "spin of the ball after the tilted plate"},

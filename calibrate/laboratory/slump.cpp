@@ -70,6 +70,7 @@ void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test
 
 void ask_for(SlumpTest& test, const ReadingKind& kind) {
   if (kind.name == "step1.angle_of_repose_deg" && !test.reading.flank) test.reading.flank.emplace();
+  if (kind.name == "tilt.slide_angle_deg" && !test.tilt) test.tilt.emplace();
   const bool time = kind.name == "step1.t500_s" || kind.name == "step1.flow_time_s";
   if (time && !test.reading.flow) test.reading.flow.emplace();
 }
@@ -81,6 +82,7 @@ std::vector<FilePlace> places_in_files(const SlumpTest&) {
   add_places(places, rhythm_dimensions, "drop", "apparatus.drop_plate");
   places.pop_back();  // the last place is that of the plate itself
   add_places(places, plate_dimensions, "drop", "apparatus.drop_plate");
+  add_places(places, tilt_dimensions, "tilt", "apparatus.tilt");
   add_places(places, flow_dimensions, "reading.flow", "apparatus.reading.flow");
   add_places(places, flank_dimensions, "reading.flank", "apparatus.reading.flank");
   add_places(places, reading_dimensions, "reading", "apparatus.reading");
@@ -89,6 +91,8 @@ std::vector<FilePlace> places_in_files(const SlumpTest&) {
 
 double moved_time_s(const SlumpTest& test) {
   const double lift_s = test.mould.height_m / test.lift_velocity_m_s;
+  constexpr double usual_slide_deg = 30;
+  if (test.tilt) return lift_s + usual_slide_deg / test.tilt->rate_deg_s;
   if (!test.drop) return lift_s;
   return lift_s + (test.drop->drops - 1) * moving_time_s(*test.drop);
 }

@@ -66,6 +66,12 @@ void describe_apparatus(Fields& apparatus, SlumpTest& test, Need need) {
                       kMostDrops, Need::optional);
         read_dimensions(plate, drop, rhythm_dimensions, Need::optional);
       });
+  apparatus.nullable_object(
+      {"tilt",
+       "the table is tilted with the heap of step 1, until the heap slides; null or left out: not "
+       "tilted, unless the angle was measured"},
+      test.tilt, Need::optional,
+      [&](auto& tilt, Tilt& motion) { read_dimensions(tilt, motion, tilt_dimensions, need); });
   apparatus.object({"reading", "how the ruler is held"}, need, [&](auto& reading) {
     reading.choice(
         {"height",
@@ -118,6 +124,8 @@ void describe_test(Fields& fields, SlumpTest& test) {
         drop.number({"period_s", "from one drop to the next; 2 where it is not said"}, plate.period_s, any_number,
                     Default{usual.period_s});
       });
+  fields.optional_object({"tilt", "the table is tilted until the heap slides"}, test.tilt,
+                         [](auto& tilt, auto& motion) { describe_dimensions(tilt, motion, tilt_dimensions); });
   fields.object({"reading", "how the ruler is held"}, required, [&](auto& reading) {
     reading.choice({"height", "where, as in laboratory files"}, test.reading.height, height_readings, required);
     describe_dimensions(reading, test.reading, reading_dimensions);

@@ -25,7 +25,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::array<ShortReading, 12> shorts{{
+constexpr std::array<ShortReading, 13> shorts{{
     {"slump", "step1.slump_mm", "height of the mould minus that of the heap"},
     {"height", "step1.height_mm", "height of the heap"},
     {"spread", "step1.spread_mm", "width of the heap"},
@@ -37,6 +37,7 @@ constexpr std::array<ShortReading, 12> shorts{{
     {"sag", "step2.plateau_sag_mm", "height difference of the top, positive if the free side is lower"},
     {"flow", "after_drops.spread_mm", "width of the heap after all drops"},
     {"height-after", "after_drops.height_mm", "height after all drops"},
+    {"slide-angle", "tilt.slide_angle_deg", "inclination of the table at which the heap slides"},
     {"mass", "fill.mass_kg", "mass of the mould's content"},
 }};
 

@@ -103,6 +103,10 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
     out["friction"] = {{"free", {0.05, 0.3}}, {"scale", "log"}};
     out["table_friction"].erase("prior");
   }
+  if (is_there("slide_angle")) {
+    out["table_friction"] = {{"free", {0.05, 1.2}}, {"scale", "log"}};
+    out["table_rolling_friction"] = {{"value", 0.5}};  // a base that slides, instead of rolling before
+  }
   bool timed = false;
   for (const auto& [key, reading] : measurements.items()) timed = timed || key.ends_with("_s");
   if (timed && laws.law == "bridge" && laws.target == "lammps") {

@@ -153,12 +153,18 @@ std::vector<ReadingKind> after_drops_kinds(const SlumpRanges& ranges) {
                 .checked = true, .repeatability = published_spread,
                 .published_deviation = ranges.deviation_of_spread}};
 }
+
+ReadingKind tilt_kind() {
+  return {.name = "tilt.slide_angle_deg", .key = "tilt.slide_angle_deg", .measure = "tilt.slide_angle_deg",
+          .stage = kTilt, .possible = {0, kSteepest}, .worst_miss = kSteepest, .on_request = true};
+}
 // clang-format on
 
 }  // namespace
 
 bool is_asked_for(const SlumpTest& test, std::string_view reading) {
   if (reading == "step1.angle_of_repose_deg") return test.reading.flank.has_value();
+  if (reading == "tilt.slide_angle_deg") return test.tilt.has_value();
   return (reading == "step1.t500_s" || reading == "step1.flow_time_s") && test.reading.flow.has_value();
 }
 
@@ -179,6 +185,8 @@ std::vector<ReadingKind> reading_kinds(const SlumpTest& test) {
     if (!test.drop || test.drop->drops == 1) kind.lack = test.drop ? one_drop : no_plate;
     kinds.push_back(kind);
   }
+  kinds.push_back(tilt_kind());
+  kinds.back().advised = kinds.back().checked = is_asked_for(test, kinds.back().name);
   return kinds;
 }
 

@@ -5,6 +5,7 @@
 #include "core/apparatus/slump/plate_drop.h"
 #include "core/apparatus/slump/slump_test.h"
 #include "core/apparatus/slump/spread_series.h"
+#include "core/apparatus/slump/tilt.h"
 #include "core/observe/heap.h"
 #include "core/step/runner.h"
 
@@ -135,7 +136,7 @@ void add_up(RunSummary& sum, const RunSummary& part) {
   sum.particle_steps += part.particle_steps;
 }
 
-/// Summary of the lift and of the drops after it.
+/// Summary of the lift and of the drops, or the tilt, after it.
 RunSummary together(RunSummary lift, const RunSummary& drops) {
   lift.simulated_s += drops.simulated_s;
   lift.advised_step_s = std::min(lift.advised_step_s, drops.advised_step_s);
@@ -170,15 +171,16 @@ Outcome simulate(const SlumpTest& test, const RunOptions& options) {
     if (is_timed(test)) read_times(test, lift, outcome);
     ended_early = lift.is_unwanted(outcome.readings);
   }
-  if (test.drop && !outcome.failure && !ended_early) {
-    Outcome drops = drop_plate(test, lift.world(), lift.ruler(), lift.energy_balance(), options);
-    outcome.failure = drops.failure;
-    outcome.run = together(outcome.run, drops.run);
-    for (const Reading& reading : drops.readings.all()) outcome.readings.set(reading.name, reading.value);
-    if (drops.curve) {
-      drops.curve->points.insert(drops.curve->points.begin(),
+  if ((test.drop || test.tilt) && !outcome.failure && !ended_early) {
+    Outcome after = test.drop ? drop_plate(test, lift.world(), lift.ruler(), lift.energy_balance(), options)
+                              : tilt_table(test, lift.world(), lift.energy_balance(), options);
+    outcome.failure = after.failure;
+    outcome.run = together(outcome.run, after.run);
+    for (const Reading& reading : after.readings.all()) outcome.readings.set(reading.name, reading.value);
+    if (after.curve) {
+      after.curve->points.insert(after.curve->points.begin(),
                                  {0, outcome.readings.find("step1.spread_mm").value_or(0)});
-      outcome.curve = std::move(drops.curve);
+      outcome.curve = std::move(after.curve);
     }
   }
   outcome.run.ended_early = ended_early;

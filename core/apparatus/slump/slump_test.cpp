@@ -83,6 +83,11 @@ Faults validate(const SlumpTest& test) {
     if (test.drop->motion == TableMotion::hinged)
       check.range("reading.sag_window_m", test.reading.sag_window_m, 4 * radius, test.table_length_m, "m");
   }
+  if (test.tilt) {
+    check_dimensions(check, *test.tilt, tilt_dimensions, "tilt.");
+    check.require(!test.drop, "tilt", "is of the heap of step 1, but the plate drops",
+                  "describe two tests: one with the drop, one with the tilt");
+  }
   check_wall(check, test.mould_wall, "mould_wall");
   check_wall(check, test.table_wall, "table_wall");
   return check.take();

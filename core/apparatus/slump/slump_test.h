@@ -82,15 +82,23 @@ struct ReadingMethod {
   std::optional<Flank> flank;             ///< for the angle of repose after step 1; empty: not read
 };
 
+/// The table is tilted with the heap of step 1 on it, until the heap slides.
+struct Tilt {
+  double rate_deg_s = 3;   ///< degrees per second
+  double slide_m = 0.005;  ///< motion of the heap's base down the table that counts as sliding
+};
+inline constexpr double kSteepest = 80;  ///< [degrees] at which the tilt ends
+
 /// The slump test: the specimen, with the density of the fresh material in the mould, and the apparatus. The density of
 /// a grain follows from the packing.
 /// Step 1: fill, strike off, lift the mould. Step 2 (only if `drop` is set): raise the plate and drop it, once or
-/// several times.
+/// several times. Tilt (only if `tilt` is set): the heap of step 1 is tilted until it slides.
 struct SlumpTest : Specimen {
   Mould mould;
   double lift_velocity_m_s = 0.1;
   double table_length_m = 0.700;  ///< side of the square table and of the plate
   std::optional<DropPlate> drop;
+  std::optional<Tilt> tilt;  ///< not together with `drop`
   ReadingMethod reading;
 
   WallContact mould_wall{1e9, 0.3, 0.3, 0.1, 0.0, 0.0};
@@ -135,6 +143,10 @@ inline constexpr std::array<Dimension<FlowTiming>, 1> flow_dimensions{{
     {"diameter_m", &FlowTiming::diameter_m, 2e-3, 10, "of the circle that step1.t500_s is the time to; default 500",
      true},
 }};
+inline constexpr std::array<Dimension<Tilt>, 2> tilt_dimensions{{
+    {"rate_deg_s", &Tilt::rate_deg_s, 0.1, 45, "at which the table is tilted; default 3", true},
+    {"slide_m", &Tilt::slide_m, 1e-4, 1, "of the heap's base down the table, that counts as sliding; default 5", true},
+}};
 inline constexpr std::array<Dimension<Flank>, 2> flank_dimensions{{
     {"lower_share", &Flank::lower_share, 0, 0.9, "of the heap's height, from which the flank is read; default 0.2",
      true},
@@ -155,7 +167,7 @@ Outcome simulate(const SlumpTest& test, const RunOptions& options = {});
 std::vector<std::string> reading_names(const SlumpTest& test);
 
 /// Stages of a slump test.
-inline constexpr int kFill = 0, kStep1 = 1, kStep2 = 2, kAfterDrops = 3;
+inline constexpr int kFill = 0, kStep1 = 1, kStep2 = 2, kAfterDrops = 3, kTilt = 4;
 
 /// True if the apparatus requests a reading that is taken on request only (`ReadingKind::on_request`).
 bool is_asked_for(const SlumpTest& test, std::string_view reading);
