@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -20,8 +19,6 @@ class Residuals : public ceres::CostFunction {
   Residuals(const Problem& problem, const CeresOptions& options) : problem_(problem), options_(options) {
     mutable_parameter_block_sizes()->push_back(problem.parameters);
     set_num_residuals(problem.residuals);
-    if (options.loss == Loss::huber) loss_ = std::make_unique<ceres::HuberLoss>(options.loss_scale);
-    if (options.loss == Loss::cauchy) loss_ = std::make_unique<ceres::CauchyLoss>(options.loss_scale);
   }
 
   /// Exceptions must not cross Ceres, which is not exception-safe; they are kept and rethrown later.
@@ -33,9 +30,7 @@ class Residuals : public ceres::CostFunction {
       if (jacobians != nullptr && jacobians[0] != nullptr) {
         Eigen::Map<RowMajor> jacobian(jacobians[0], num_residuals(), problem_.parameters);
         differentiate(point, r, jacobian);
-        if (loss_) bend_columns(r, jacobian);
       }
-      if (loss_) bend(r);
     } catch (...) {
       thrown_ = std::current_exception();
       end(SearchStatus::failed, "the problem threw");
@@ -93,35 +88,7 @@ class Residuals : public ceres::CostFunction {
     } else {
       ++run_.failures;
     }
-    const bool both_feasible = is_feasible(answer) && is_feasible(run_.best);
-    const bool better = both_feasible ? cost(answer) < cost(run_.best) : is_better(answer, run_.best);
-    if (better) run_.best = answer;
-  }
-
-  double cost(const Answer& answer) const {
-    if (!loss_) return answer.value;
-    Eigen::VectorXd residuals = answer.residuals;
-    bend(residuals);
-    return 0.5 * residuals.squaredNorm();
-  }
-
-  /// Replaces each residual r by sign(r) sqrt(rho(r^2)). Ceres would apply its loss to the norm of all residuals of the
-  /// block, so that a single bad measurement would reduce the weight of the good ones.
-  void bend(Eigen::Ref<Eigen::VectorXd> residuals) const {
-    for (double& r : residuals) {
-      double rho[3];
-      loss_->Evaluate(r * r, rho);
-      r = std::copysign(std::sqrt(rho[0]), r);
-    }
-  }
-
-  /// Jacobian of the transformed residuals: rho'(r^2) r/sqrt(rho(r^2)) times the row.
-  void bend_columns(const Eigen::VectorXd& residuals, Eigen::Ref<RowMajor> jacobian) const {
-    for (Eigen::Index k = 0; k < residuals.size(); ++k) {
-      double rho[3];
-      loss_->Evaluate(residuals[k] * residuals[k], rho);
-      if (rho[0] > 0) jacobian.row(k) *= rho[1] * std::abs(residuals[k]) / std::sqrt(rho[0]);
-    }
+    if (is_better(answer, run_.best)) run_.best = answer;
   }
 
   void differentiate(const UnitPoint& point, const Eigen::VectorXd& centre, Eigen::Ref<RowMajor> jacobian) const {
@@ -158,7 +125,6 @@ class Residuals : public ceres::CostFunction {
 
   const Problem& problem_;
   const CeresOptions& options_;
-  std::unique_ptr<ceres::LossFunction> loss_;
   // Ceres' Evaluate is const; the record is not.
   mutable Optimum run_;
   mutable Answer last_;       // Ceres evaluates an accepted point twice: for the residuals, then for the Jacobian
@@ -240,7 +206,6 @@ Faults validate(const CeresOptions& options) {
   const auto demand = [&](bool holds, const char* where, double value, const char* remedy) {
     if (!holds) faults.push_back({where, std::to_string(value), remedy});
   };
-  demand(options.loss_scale > 0, "loss_scale", options.loss_scale, "above 0");
   demand(options.difference_step > 0 && options.difference_step <= 0.5, "difference_step", options.difference_step,
          "above 0, at most 0.5");
   demand(options.step_tolerance > 0, "step_tolerance", options.step_tolerance, "above 0");

@@ -15,13 +15,8 @@ enum class TrustRegion { levenberg_marquardt, dogleg };
 /// Trust region of a strategy name; empty for names of other strategies.
 std::optional<TrustRegion> trust_region_of(std::string_view strategy);
 
-/// Loss of a residual; all but `none` limit the influence of a single bad measurement.
-enum class Loss { none, huber, cauchy };
-
 struct CeresOptions {
   TrustRegion trust_region = TrustRegion::levenberg_marquardt;
-  Loss loss = Loss::none;
-  double loss_scale = 1;         ///< size of a residual at which its loss bends; > 0
   double difference_step = 0.1;  ///< finite difference step in the unit cube; 0 < step <= 0.5; see `noise_step`
   double step_tolerance = 0.01;  ///< shorter steps, in the unit cube, end the run; > 0
   int evaluations = 100;         ///< most points evaluated, start and finite differences included; > 0
@@ -41,9 +36,8 @@ Faults validate(const CeresOptions& options);
 /// is by finite differences: all probes of a point are evaluated at once, in parallel, each towards the farther border.
 /// A probe that fails is tried on the other side, then on both with a quarter of the step; a column without an answer
 /// is zero and mentioned in the reason. A trial point that fails costs twice the worst answer so far, so that Ceres
-/// takes a shorter step. A start that fails ends the run at once. The best is the feasible answer of least cost: the
-/// value, or half the sum of the losses. Errors: in the status. Throws what the problem throws, and std::logic_error if
-/// a requirement is broken.
+/// takes a shorter step. A start that fails ends the run at once. Errors: in the status. Throws what the problem
+/// throws, and std::logic_error if a requirement is broken.
 Optimum minimise(const Problem& problem, const UnitPoint& start, const CeresOptions& options);
 
 }  // namespace pastefit

@@ -93,21 +93,6 @@ TEST_CASE("two hundred failing regions end no solve at its start, and the best i
   CHECK(improved > 0.85 * feasible_starts);
 }
 
-TEST_CASE("a robust loss lets one measurement that contradicts the others go") {
-  Synthetic objective;
-  objective.dimension = 1;
-  objective.measured = {0.3, 0.3, 0.3, 8.0};
-  objective.standard_deviations = {0.01, 0.01, 0.01, 0.01};
-  objective.observe = [](const UnitPoint& x, std::uint64_t) { return std::vector<double>(4, x[0]); };
-  CeresOptions options = fine_options();
-  options.loss = Loss::cauchy;
-  UnitPoint start(1);
-  start << 0.5;
-  CHECK(minimise(simulated_problem(objective, one_packing), start, options).best.point[0] == Approx(0.3).margin(0.01));
-  options.loss = Loss::none;
-  CHECK(minimise(simulated_problem(objective, one_packing), start, options).best.point[0] == Approx(1.0).margin(0.01));
-}
-
 TEST_CASE("a start that meets the goal costs one point") {
   Synthetic objective = bowl(Eigen::Vector2d(0.2, 0.2));
   CeresOptions options;
