@@ -201,23 +201,10 @@ double noise_step(double noise, double curvature) {
   return std::clamp(curvature > 0 ? 2 * std::sqrt(noise / curvature) : 0.5, 0.01, 0.5);
 }
 
-Faults validate(const CeresOptions& options) {
-  Faults faults;
-  const auto demand = [&](bool holds, const char* where, double value, const char* remedy) {
-    if (!holds) faults.push_back({where, std::to_string(value), remedy});
-  };
-  demand(options.difference_step > 0 && options.difference_step <= 0.5, "difference_step", options.difference_step,
-         "above 0, at most 0.5");
-  demand(options.step_tolerance > 0, "step_tolerance", options.step_tolerance, "above 0");
-  demand(options.evaluations > 0, "evaluations", options.evaluations, "at least 1");
-  demand(options.noise >= 0, "noise", options.noise, "0 or more");
-  return faults;
-}
-
 Optimum minimise(const Problem& problem, const UnitPoint& start, const CeresOptions& options) {
   const bool inside = start.size() == problem.parameters && (start.array() >= 0).all() && (start.array() <= 1).all();
-  if (!inside || problem.residuals < 1 || !validate(options).empty())
-    throw std::logic_error("minimise: start outside the unit cube, no residuals, or options that are not valid");
+  if (!inside || problem.residuals < 1)
+    throw std::logic_error("minimise: start outside the unit cube, or no residuals");
   Residuals residuals(problem, options);
   Eigen::VectorXd at_start(problem.residuals);
   residuals.answer(start, at_start);

@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "calibrate/optimisers/problem.h"
-#include "core/result.h"
 
 namespace pastefit {
 
@@ -28,16 +27,13 @@ struct CeresOptions {
 /// noise/h against h curvature/2 (Moré & Wild, ACM TOMS 38 (2012) 19).
 double noise_step(double noise, double curvature);
 
-/// Errors in the options; empty if valid.
-Faults validate(const CeresOptions& options);
-
 /// Minimises half the squared residuals of a problem over the unit cube, from `start`, with a trust region.
-/// Requirements: `validate(options)` is empty, `start` lies in the unit cube, the problem has residuals. The Jacobian
-/// is by finite differences: all probes of a point are evaluated at once, in parallel, each towards the farther border.
-/// A probe that fails is tried on the other side, then on both with a quarter of the step; a column without an answer
-/// is zero and mentioned in the reason. A trial point that fails costs twice the worst answer so far, so that Ceres
-/// takes a shorter step. A start that fails ends the run at once. Errors: in the status. Throws what the problem
-/// throws, and std::logic_error if a requirement is broken.
+/// Requirements: `start` lies in the unit cube, the problem has residuals, the options have values as stated. The
+/// Jacobian is by finite differences: all probes of a point are evaluated at once, in parallel, each towards the
+/// farther border. A probe that fails is tried on the other side, then on both with a quarter of the step; a column
+/// without an answer is zero and mentioned in the reason. A trial point that fails costs twice the worst answer so far,
+/// so that Ceres takes a shorter step. A start that fails ends the run at once. Errors: in the status. Throws what the
+/// problem throws, and std::logic_error if a requirement is broken.
 Optimum minimise(const Problem& problem, const UnitPoint& start, const CeresOptions& options);
 
 }  // namespace pastefit

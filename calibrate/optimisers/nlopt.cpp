@@ -55,10 +55,6 @@ class Answerer {
     if (run_.evaluations == 0) scale_ = std::isfinite(answer.value) && answer.value > 0 ? answer.value : 1;
     keep(answer);
     if (is_feasible(answer) && answer.good_enough) end(SearchStatus::converged, "the goal is met");
-    if (options_.patience > 0 && since_improvement_ >= options_.patience) {
-      end(SearchStatus::stalled,
-          "the last " + std::to_string(options_.patience) + " points brought no improvement beyond the noise");
-    }
     return bounded(answer);
   }
 
@@ -86,7 +82,7 @@ class Answerer {
     for (const Answer& answer : problem_.answer(neighbours)) keep(answer);
     if (run_.failures > failures) {
       end(SearchStatus::stalled, "the algorithm claims to have converged, but points beside fail");
-    } else if (run_.best.value < claimed - options_.noise) {
+    } else if (run_.best.value < claimed) {
       end(SearchStatus::stalled, "the algorithm claims to have converged, but a point beside is better");
     } else {
       end(SearchStatus::converged, "no step beyond the tolerance, and no point beside, is better");
@@ -121,22 +117,13 @@ class Answerer {
   void keep(const Answer& answer) {
     ++run_.evaluations;
     if (!is_feasible(answer)) ++run_.failures;
-    const bool first = is_feasible(answer) && !is_feasible(run_.best);
-    if (first || (is_feasible(answer) && answer.value < mark_ - options_.noise)) {
-      mark_ = answer.value;
-      since_improvement_ = 0;
-    } else {
-      ++since_improvement_;
-    }
     if (is_better(answer, run_.best)) run_.best = answer;
   }
 
   const Problem& problem_;
   const NloptOptions& options_;
   Optimum run_;
-  double scale_ = 1;           // value of the start: middle of the bounded range
-  double mark_ = 0;            // value against which the next improvement is measured
-  int since_improvement_ = 0;  // points
+  double scale_ = 1;  // value of the start: middle of the bounded range
   int refused_ = 0;
   int late_calls_ = 0;
   bool ended_ = false;
@@ -236,28 +223,10 @@ std::vector<std::string_view> nlopt_algorithm_names() {
   return names;
 }
 
-Faults validate(const NloptOptions& options) {
-  Faults faults;
-  const auto demand = [&](bool holds, const char* where, std::string what, std::string remedy) {
-    if (!holds) faults.push_back({where, std::move(what), std::move(remedy)});
-  };
-  std::string known;
-  for (const AlgorithmRow& each : algorithms) known += (known.empty() ? "" : ", ") + std::string(each.name);
-  demand(find_algorithm(options.algorithm) != nullptr, "algorithm", "\"" + options.algorithm + "\" is not known",
-         "one of " + known);
-  demand(options.evaluations > 0, "evaluations", std::to_string(options.evaluations), "at least 1");
-  demand(options.initial_step > 0 && options.initial_step <= 0.5, "initial_step", std::to_string(options.initial_step),
-         "above 0, at most 0.5");
-  demand(options.step_tolerance > 0, "step_tolerance", std::to_string(options.step_tolerance), "above 0");
-  demand(options.noise >= 0, "noise", std::to_string(options.noise), "0 or more");
-  demand(options.patience >= 0, "patience", std::to_string(options.patience), "0 or more");
-  return faults;
-}
-
 Optimum minimise(const Problem& problem, const UnitPoint& start, const NloptOptions& options) {
   const bool inside = start.size() == problem.parameters && (start.array() >= 0).all() && (start.array() <= 1).all();
-  if (!inside || !validate(options).empty())
-    throw std::logic_error("minimise: start outside the unit cube, or options that are not valid");
+  if (!inside || !find_algorithm(options.algorithm))
+    throw std::logic_error("minimise: start outside the unit cube, or an unknown algorithm");
   Answerer answerer(problem, options);
   answerer.answer(start);
   if (!answerer.ended()) run_algorithm(answerer, start, options);

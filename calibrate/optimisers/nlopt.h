@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "calibrate/optimisers/problem.h"
-#include "core/result.h"
 
 namespace pastefit {
 
@@ -16,19 +15,14 @@ struct NloptOptions {
   int evaluations = 100;             ///< most points evaluated, start included; > 0
   double initial_step = 0.2;         ///< first step of the local algorithms, in the unit cube; 0 < step <= 0.5
   double step_tolerance = 1e-3;      ///< shorter steps, in the unit cube, end the run; > 0
-  double noise = 0;                  ///< smaller improvements of the value do not count; >= 0
-  int patience = 0;                  ///< points without an improvement beyond `noise` that end the run; 0: no limit
   std::uint64_t seed = 1;            ///< of randomised algorithms
 };
 
 /// Names of the algorithms, in a fixed order: two global and four local ones of NLopt's that suit expensive functions.
 std::vector<std::string_view> nlopt_algorithm_names();
 
-/// Errors in the options; empty if valid.
-Faults validate(const NloptOptions& options);
-
-/// Minimises a problem over the unit cube, from `start`. Requirements: `validate(options)` is empty, `start` lies in
-/// the unit cube. NLopt gets f/(f + f_start) instead of the value f, between 0 and 1, and 1 to 2 for a failure. This is
+/// Minimises a problem over the unit cube, from `start`. Requirements: the algorithm is known, `start` lies in the
+/// unit cube. NLopt gets f/(f + f_start) instead of the value f, between 0 and 1, and 1 to 2 for a failure. This is
 /// bounded, keeps the order and does not change during the run, so that a failure is worse than any answer without a
 /// cliff that depends on the units. Points outside the cube are moved to its border; points that are not numbers are
 /// not evaluated. The best answer is recorded here, not taken from NLopt. A claim of convergence is checked at the

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "calibrate/optimisers/ceres.h"
 #include "calibrate/optimisers/nlopt.h"
 
 namespace pastefit {
@@ -30,13 +29,11 @@ Faults validate(const SearchOptions& options, int parameters, int tests) {
     if (!holds) faults.push_back({where, std::move(what), std::move(remedy)});
   };
   demand(parameters >= 1, "parameters", "none is free", "free at least one");
-  const StrategyRow* row = find_strategy(options.strategy);
-  if (!row || row->kind == StrategyKind::nlopt) {
-    NloptOptions nlopt;
-    nlopt.algorithm = options.strategy;
-    for (const Fault& fault : validate(nlopt))
-      demand(false, "search.strategy", fault.what, "default, levenberg_marquardt, dogleg, or " + fault.remedy);
-  }
+  std::string algorithms;
+  for (const std::string_view name : nlopt_algorithm_names())
+    algorithms += (algorithms.empty() ? "" : ", ") + std::string(name);
+  demand(find_strategy(options.strategy) != nullptr, "search.strategy", "\"" + options.strategy + "\" is not known",
+         "default, levenberg_marquardt, dogleg, or one of " + algorithms);
   demand(options.screening >= 1, "search.screening", std::to_string(options.screening), "at least 1");
   demand(options.packings >= 1, "search.packings", std::to_string(options.packings), "at least 1");
   demand(options.max_pending >= 0, "search.max_pending", std::to_string(options.max_pending), "0 or more");

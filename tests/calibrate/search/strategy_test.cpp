@@ -364,6 +364,7 @@ TEST_CASE("search options that make no sense are named, all of them") {
   REQUIRE(faults.size() == 3);
   CHECK(faults[0].where == "search.strategy");
   CHECK(faults[0].remedy.find("default") != std::string::npos);
+  CHECK(faults[0].remedy.find("bobyqa") != std::string::npos);
   Synthetic objective = fake_slump(100, 1);
   CHECK_THROWS_AS(search(objective, options), std::logic_error);
 }
