@@ -33,7 +33,7 @@ class Residuals : public ceres::CostFunction {
       }
     } catch (...) {
       thrown_ = std::current_exception();
-      end(SearchStatus::failed, "the problem threw");
+      end();
       r.setConstant(penalty());
       if (jacobians != nullptr && jacobians[0] != nullptr) {
         std::fill_n(jacobians[0], num_residuals() * problem_.parameters, 0.0);
@@ -56,18 +56,11 @@ class Residuals : public ceres::CostFunction {
     if (!is_feasible(answer)) return;
     residuals = answer.residuals;
     last_ = answer;
-    if (answer.good_enough) end(SearchStatus::converged, "the goal is met");
+    if (answer.good_enough) end();
   }
 
-  void end(SearchStatus status, std::string reason) const {
-    if (ended_) return;
-    ended_ = true;
-    run_.status = status;
-    run_.reason = std::move(reason);
-  }
-
+  void end() const { ended_ = true; }
   bool ended() const { return ended_; }
-  int blind_columns() const { return blind_columns_; }
   const Optimum& run() const { return run_; }
   const std::exception_ptr& thrown() const { return thrown_; }
 
@@ -75,19 +68,14 @@ class Residuals : public ceres::CostFunction {
   double penalty() const { return std::sqrt(2 * (2 * worst_ + 1) / std::max(1, num_residuals())); }
 
   bool may_ask(int points) const {
-    const auto refusal = problem_.refuses ? problem_.refuses(points) : std::nullopt;
-    if (refusal) end(refusal->status, refusal->reason);
-    if (run_.evaluations + points > options_.evaluations) end(SearchStatus::budget_spent, "all evaluations are used");
+    if (problem_.may_evaluate && !problem_.may_evaluate(points)) end();
+    if (run_.evaluations + points > options_.evaluations) end();
     return !ended_;
   }
 
   void keep(const Answer& answer) const {
     ++run_.evaluations;
-    if (is_feasible(answer)) {
-      worst_ = std::max(worst_, answer.value);
-    } else {
-      ++run_.failures;
-    }
+    if (is_feasible(answer)) worst_ = std::max(worst_, answer.value);
     if (is_better(answer, run_.best)) run_.best = answer;
   }
 
@@ -120,7 +108,6 @@ class Residuals : public ceres::CostFunction {
       }
       if (open.empty()) return;
     }
-    blind_columns_ = std::max(blind_columns_, static_cast<int>(open.size()));
   }
 
   const Problem& problem_;
@@ -129,7 +116,6 @@ class Residuals : public ceres::CostFunction {
   mutable Optimum run_;
   mutable Answer last_;       // Ceres evaluates an accepted point twice: for the residuals, then for the Jacobian
   mutable double worst_ = 0;  // largest feasible value so far
-  mutable int blind_columns_ = 0;
   mutable bool ended_ = false;
   mutable std::exception_ptr thrown_;
 };
@@ -140,12 +126,8 @@ class Watch : public ceres::IterationCallback {
   Watch(const Residuals& residuals, const CeresOptions& options) : residuals_(residuals), options_(options) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
-    if (iteration.iteration > 0 && iteration.step_is_successful && iteration.cost_change <= options_.noise) {
-      residuals_.end(SearchStatus::converged, "the last step improved the fit by no more than the noise");
-    }
-    if (iteration.iteration > 0 && iteration.step_norm < options_.step_tolerance) {
-      residuals_.end(SearchStatus::stalled, "the steps became shorter than the tolerance");
-    }
+    const bool within_noise = iteration.step_is_successful && iteration.cost_change <= options_.noise;
+    if (iteration.iteration > 0 && (within_noise || iteration.step_norm < options_.step_tolerance)) residuals_.end();
     return residuals_.ended() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
@@ -179,14 +161,6 @@ void solve(Residuals& residuals, UnitPoint& x, const CeresOptions& options) {
   solver.callbacks.push_back(&watch);
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
-  if (residuals.ended()) return;
-  if (summary.termination_type == ceres::CONVERGENCE) {
-    residuals.end(SearchStatus::converged, "the gradient or the steps are below the tolerance");
-  } else if (summary.termination_type == ceres::NO_CONVERGENCE) {
-    residuals.end(SearchStatus::budget_spent, "all iterations are used");
-  } else {
-    residuals.end(SearchStatus::failed, "Ceres ended with: " + summary.message);
-  }
 }
 
 }  // namespace
@@ -208,19 +182,10 @@ Optimum minimise(const Problem& problem, const UnitPoint& start, const CeresOpti
   Residuals residuals(problem, options);
   Eigen::VectorXd at_start(problem.residuals);
   residuals.answer(start, at_start);
-  if (!residuals.ended() && !is_feasible(residuals.run().best)) {
-    residuals.end(SearchStatus::failed, "the start fails: begin at a point that has an answer");
-  }
   UnitPoint x = start;
-  if (!residuals.ended()) solve(residuals, x, options);
+  if (!residuals.ended() && is_feasible(residuals.run().best)) solve(residuals, x, options);
   if (residuals.thrown()) std::rethrow_exception(residuals.thrown());
-  Optimum run = residuals.run();
-  if (residuals.blind_columns() > 0) {
-    run.reason +=
-        "; up to " + std::to_string(residuals.blind_columns()) + " parameters were held where all probes failed";
-    if (run.status == SearchStatus::converged && !run.best.good_enough) run.status = SearchStatus::stalled;
-  }
-  return run;
+  return residuals.run();
 }
 
 }  // namespace pastefit

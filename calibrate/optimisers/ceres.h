@@ -31,9 +31,9 @@ double noise_step(double noise, double curvature);
 /// Requirements: `start` lies in the unit cube, the problem has residuals, the options have values as stated. The
 /// Jacobian is by finite differences: all probes of a point are evaluated at once, in parallel, each towards the
 /// farther border. A probe that fails is tried on the other side, then on both with a quarter of the step; a column
-/// without an answer is zero and mentioned in the reason. A trial point that fails costs twice the worst answer so far,
-/// so that Ceres takes a shorter step. A start that fails ends the run at once. Errors: in the status. Throws what the
-/// problem throws, and std::logic_error if a requirement is broken.
+/// without an answer is zero, so that the parameter is held. A trial point that fails costs twice the worst answer so
+/// far, so that Ceres takes a shorter step. A start that fails ends the run at once. Throws what the problem throws,
+/// and std::logic_error if a requirement is broken.
 Optimum minimise(const Problem& problem, const UnitPoint& start, const CeresOptions& options);
 
 }  // namespace pastefit

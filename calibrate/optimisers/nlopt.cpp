@@ -43,25 +43,22 @@ class Answerer {
       return 2;
     }
     if (!asked.allFinite()) {
-      if (++refused_ >= most_refused) end(SearchStatus::stalled, "the algorithm asked for points that are not numbers");
+      ended_ = ++refused_ >= most_refused;
       return 2;
     }
-    const auto refusal = refuses(1);
-    if (refusal && refusal->status == SearchStatus::stopped) return end(refusal->status, refusal->reason);
-    if (run_.evaluations >= options_.evaluations) return end(SearchStatus::budget_spent, "all evaluations are used");
-    if (refusal) return end(refusal->status, refusal->reason);
+    if (!may_ask(1)) return 2;
     const UnitPoint point = asked.cwiseMax(0.0).cwiseMin(1.0);
     const Answer answer = problem_.answer({&point, 1}).at(0);
     if (run_.evaluations == 0) scale_ = std::isfinite(answer.value) && answer.value > 0 ? answer.value : 1;
     keep(answer);
-    if (is_feasible(answer) && answer.good_enough) end(SearchStatus::converged, "the goal is met");
+    if (is_feasible(answer) && answer.good_enough) end();
     return bounded(answer);
   }
 
-  /// Checks a claim of convergence: evaluates both neighbours of the best point along each coordinate, all at once, and
-  /// accepts the claim if none fails and none is better. The algorithms' own tests do not suffice: simplices collapse
-  /// at bounds and beside failures, and models built on a failure shrink away from the minimum.
-  void check_claim() {
+  /// After a claim of convergence: evaluates both neighbours of the best point along each coordinate, all at once. The
+  /// algorithms' own tests do not suffice: simplices collapse at bounds and beside failures, and models built on a
+  /// failure shrink away from the minimum.
+  void check_neighbours() {
     const UnitPoint& best = run_.best.point;
     std::vector<UnitPoint> neighbours;
     for (Eigen::Index k = 0; k < best.size(); ++k) {
@@ -71,41 +68,20 @@ class Answerer {
         neighbours.push_back(std::move(neighbour));
       }
     }
-    const auto points = static_cast<int>(neighbours.size());
-    const auto refusal = refuses(points);
-    if (refusal && refusal->status == SearchStatus::stopped) return (void)end(refusal->status, refusal->reason);
-    if (run_.evaluations + points > options_.evaluations || refusal) {
-      return (void)end(SearchStatus::stalled, "the algorithm claims to have converged; no budget was left to check it");
-    }
-    const double claimed = run_.best.value;
-    const int failures = run_.failures;
+    if (!may_ask(static_cast<int>(neighbours.size()))) return;
     for (const Answer& answer : problem_.answer(neighbours)) keep(answer);
-    if (run_.failures > failures) {
-      end(SearchStatus::stalled, "the algorithm claims to have converged, but points beside fail");
-    } else if (run_.best.value < claimed) {
-      end(SearchStatus::stalled, "the algorithm claims to have converged, but a point beside is better");
-    } else {
-      end(SearchStatus::converged, "no step beyond the tolerance, and no point beside, is better");
-    }
   }
 
-  /// Ends the run; the first reason counts. Returns the value for the pending evaluation.
-  double end(SearchStatus status, std::string reason) {
-    if (!ended_) {
-      ended_ = true;
-      run_.status = status;
-      run_.reason = std::move(reason);
-    }
-    return 2;
-  }
-
+  void end() { ended_ = true; }
   bool ended() const { return ended_; }
   int late_calls() const { return late_calls_; }
   const Optimum& run() const { return run_; }
 
  private:
-  std::optional<Problem::Refusal> refuses(int points) const {
-    return problem_.refuses ? problem_.refuses(points) : std::nullopt;
+  bool may_ask(int points) {
+    if (problem_.may_evaluate && !problem_.may_evaluate(points)) end();
+    if (run_.evaluations + points > options_.evaluations) end();
+    return !ended_;
   }
 
   double bounded(const Answer& answer) const {
@@ -116,7 +92,6 @@ class Answerer {
 
   void keep(const Answer& answer) {
     ++run_.evaluations;
-    if (!is_feasible(answer)) ++run_.failures;
     if (is_better(answer, run_.best)) run_.best = answer;
   }
 
@@ -144,7 +119,7 @@ double ask(unsigned, const double* x, double*, void* data) {
     value = question.answerer.answer(Eigen::Map<const Eigen::VectorXd>(x, question.dimension));
   } catch (...) {
     question.thrown = std::current_exception();
-    question.answerer.end(SearchStatus::failed, "the problem threw");
+    question.answerer.end();
   }
   if (question.answerer.ended()) question.optimiser.force_stop();
   if (question.answerer.late_calls() > most_late_calls) throw nlopt::forced_stop();
@@ -165,30 +140,6 @@ void configure(nlopt::opt& optimiser, const AlgorithmRow& row, unsigned dimensio
   }
 }
 
-/// Translates NLopt's result; an end recorded before takes precedence.
-void translate(nlopt::result result, Answerer& answerer) {
-  switch (result) {
-    case nlopt::SUCCESS:
-    case nlopt::STOPVAL_REACHED:
-    case nlopt::FTOL_REACHED:
-    case nlopt::XTOL_REACHED:
-      if (!answerer.ended()) answerer.check_claim();
-      return;
-    case nlopt::MAXEVAL_REACHED:
-    case nlopt::MAXTIME_REACHED:
-      answerer.end(SearchStatus::budget_spent, "all evaluations are used");
-      return;
-    case nlopt::ROUNDOFF_LIMITED:
-      answerer.end(SearchStatus::stalled, "rounding errors kept the algorithm from going on");
-      return;
-    case nlopt::FORCED_STOP:
-      answerer.end(SearchStatus::stopped, "the algorithm was stopped");
-      return;
-    default:
-      answerer.end(SearchStatus::failed, "the algorithm refused the problem");
-  }
-}
-
 void run_algorithm(Answerer& answerer, const UnitPoint& start, const NloptOptions& options) {
   const AlgorithmRow& row = *find_algorithm(options.algorithm);
   // Algorithms that cannot search one coordinate get further ones without effect.
@@ -204,15 +155,11 @@ void run_algorithm(Answerer& answerer, const UnitPoint& start, const NloptOption
   try {
     double least = 0;
     result = optimiser.optimize(x, least);
-  } catch (const nlopt::forced_stop&) {
-    result = nlopt::FORCED_STOP;
-  } catch (const nlopt::roundoff_limited&) {
-    result = nlopt::ROUNDOFF_LIMITED;
-  } catch (const std::exception&) {
-    result = optimiser.last_optimize_result();
+  } catch (const std::exception&) {  // the result is a failure
   }
   if (question.thrown) std::rethrow_exception(question.thrown);
-  translate(result, answerer);
+  const bool converged = result > 0 && result < nlopt::MAXEVAL_REACHED;
+  if (converged && !answerer.ended()) answerer.check_neighbours();
 }
 
 }  // namespace
@@ -230,13 +177,7 @@ Optimum minimise(const Problem& problem, const UnitPoint& start, const NloptOpti
   Answerer answerer(problem, options);
   answerer.answer(start);
   if (!answerer.ended()) run_algorithm(answerer, start, options);
-  Optimum run = answerer.run();
-  const bool interrupted = run.status == SearchStatus::stopped || run.evaluations == 0;
-  if (!is_feasible(run.best) && !interrupted) {
-    run.status = SearchStatus::failed;
-    run.reason = "every point that was asked failed";
-  }
-  return run;
+  return answerer.run();
 }
 
 UnitPoint least_point(const std::function<double(const UnitPoint&)>& function, const UnitPoint& start) {

@@ -25,10 +25,10 @@ std::vector<std::string_view> nlopt_algorithm_names();
 /// unit cube. NLopt gets f/(f + f_start) instead of the value f, between 0 and 1, and 1 to 2 for a failure. This is
 /// bounded, keeps the order and does not change during the run, so that a failure is worse than any answer without a
 /// cliff that depends on the units. Points outside the cube are moved to its border; points that are not numbers are
-/// not evaluated. The best answer is recorded here, not taken from NLopt. A claim of convergence is checked at the
-/// neighbours of the best point, a quarter of `initial_step` away. Limit: an algorithm that loops without evaluating a
-/// point cannot be stopped; none is known to do so for bounded values. Errors: in the status. Throws what the problem
-/// throws, and std::logic_error if a requirement is broken.
+/// not evaluated. The best answer is recorded here, not taken from NLopt. After a claim of convergence the
+/// neighbours of the best point, a quarter of `initial_step` away, are evaluated as well. Limit: an algorithm that
+/// loops without evaluating a point cannot be stopped; none is known to do so for bounded values. Throws what the
+/// problem throws, and std::logic_error if a requirement is broken.
 Optimum minimise(const Problem& problem, const UnitPoint& start, const NloptOptions& options);
 
 /// Minimiser of a cheap function: DIRECT_L over the cube, then BOBYQA from there.

@@ -5,22 +5,6 @@
 
 namespace pastefit {
 
-std::string_view name_of(SearchStatus status) {
-  switch (status) {
-    case SearchStatus::converged:
-      return "converged";
-    case SearchStatus::stalled:
-      return "stalled";
-    case SearchStatus::budget_spent:
-      return "budget_spent";
-    case SearchStatus::stopped:
-      return "stopped";
-    case SearchStatus::failed:
-      return "failed";
-  }
-  return "unknown";
-}
-
 bool is_feasible(const Answer& answer) {
   return answer.point.size() > 0 && !answer.failed && std::isfinite(answer.value) && answer.residuals.allFinite();
 }

@@ -2,10 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace pastefit {
@@ -16,18 +13,6 @@ using UnitPoint = Eigen::VectorXd;
 inline std::span<const double> coordinates(const UnitPoint& point) {
   return {point.data(), static_cast<std::size_t>(point.size())};
 }
-
-/// How a run of an optimiser ended; each optimiser's status is translated into one of these.
-enum class SearchStatus {
-  converged,     ///< goal met, or the algorithm's own test holds and no neighbour of the best point is better
-  stalled,       ///< no improvement beyond the noise, or a claim of convergence that was refuted or not checked
-  budget_spent,  ///< limit on evaluations, or the problem's own budget
-  stopped,       ///< the user or a limit requested it
-  failed         ///< no feasible point, or the algorithm rejected the problem
-};
-
-/// Name in files and messages, e.g. "budget_spent".
-std::string_view name_of(SearchStatus status);
 
 /// Value of a problem at a point.
 struct Answer {
@@ -51,12 +36,8 @@ struct Problem {
   int residuals = 0;  ///< for least squares
   /// Evaluates points, all at once so that they can run in parallel; in their order.
   std::function<std::vector<Answer>(std::span<const UnitPoint>)> answer;
-  /// Why this number of further points is refused (`stopped` or `budget_spent`); empty: allowed. May be left empty.
-  struct Refusal {
-    SearchStatus status = SearchStatus::stopped;
-    std::string reason;
-  };
-  std::function<std::optional<Refusal>(int points)> refuses;
+  /// True if this number of further points may be evaluated; false ends the run. May be left empty.
+  std::function<bool(int points)> may_evaluate;
 };
 
 /// Problem with one cheap number for each point; it cannot fail. The value should be >= 0; optimisers resolve values up
@@ -65,11 +46,8 @@ Problem scalar_problem(int parameters, std::function<double(const UnitPoint&)> v
 
 /// Result of one run of an optimiser.
 struct Optimum {
-  Answer best;  ///< feasible answer of least value; a failed one only if all failed
-  SearchStatus status = SearchStatus::failed;
-  std::string reason;   ///< one sentence for the user
+  Answer best;  ///< feasible answer of least value; a failed one only if all failed; no point if none was evaluated
   int evaluations = 0;  ///< points evaluated
-  int failures = 0;     ///< of them failed
 };
 
 }  // namespace pastefit

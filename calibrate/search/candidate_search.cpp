@@ -26,10 +26,10 @@ bool SimulatedMinimisation::advance() {
   Problem problem;
   problem.parameters = history.parameters();
   problem.residuals = history.residuals();
-  problem.refuses = [&](int points) -> std::optional<Problem::Refusal> {
-    if (asked_) return Problem::Refusal{SearchStatus::stopped, "an answer is not known yet"};
-    if (allowed == refusals_.size()) refusals_.push_back(refusal_of(points));
-    return refusals_[allowed++];
+  problem.may_evaluate = [&](int points) {
+    if (asked_) return false;
+    if (allowed == allowed_.size()) allowed_.push_back(allows(points));
+    return static_cast<bool>(allowed_[allowed++]);
   };
   problem.answer = [&](std::span<const UnitPoint> points) {
     if (question < answers_.size()) return answers_[question++];
@@ -51,11 +51,8 @@ std::vector<Answer> SimulatedMinimisation::answers_of(std::span<const Response> 
   return answers;
 }
 
-std::optional<Problem::Refusal> SimulatedMinimisation::refusal_of(int points) const {
-  if (state_.history.stop_requested()) return Problem::Refusal{SearchStatus::stopped, "a stop was requested"};
-  if (!state_.affordable(static_cast<std::size_t>(points) * state_.common.size()))
-    return Problem::Refusal{SearchStatus::budget_spent, "the budget of simulations is spent"};
-  return std::nullopt;
+bool SimulatedMinimisation::allows(int points) const {
+  return !state_.history.stop_requested() && state_.affordable(static_cast<std::size_t>(points) * state_.common.size());
 }
 
 namespace {

@@ -29,14 +29,14 @@ class SimulatedMinimisation : public SearchPhase {
 
  private:
   std::vector<Answer> answers_of(std::span<const Response> responses) const;
-  std::optional<Problem::Refusal> refusal_of(int points) const;
+  bool allows(int points) const;
 
   StrategyState& state_;
   const double goal_;
   const std::function<void(const Problem&)> minimise_;
   bool asked_ = false;
-  std::vector<std::vector<Answer>> answers_;               // to its requests so far, in order
-  std::vector<std::optional<Problem::Refusal>> refusals_;  // decisions on its requests so far
+  std::vector<std::vector<Answer>> answers_;  // to its requests so far, in order
+  std::vector<bool> allowed_;                 // decisions on its requests so far
 };
 
 /// Proposes candidates from the surrogate and takes answers in the order of the proposals, until a candidate is likely

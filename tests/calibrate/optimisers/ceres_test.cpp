@@ -1,5 +1,6 @@
 #include "calibrate/optimisers/ceres.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
@@ -19,6 +20,10 @@ CeresOptions fine_options() {
   return options;
 }
 
+std::ptrdiff_t failures_of(const Synthetic& objective) {
+  return std::ranges::count_if(objective.answered, &Response::failed);
+}
+
 }  // namespace
 
 TEST_CASE("both trust regions walk Rosenbrock's valley to its end") {
@@ -28,7 +33,6 @@ TEST_CASE("both trust regions walk Rosenbrock's valley to its end") {
     options.trust_region = region;
     const Optimum run = minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.2, 0.8), options);
     CHECK(run.best.value < 1e-8);
-    CHECK(run.status != SearchStatus::failed);
   }
 }
 
@@ -45,23 +49,21 @@ TEST_CASE("a probe that fails is replaced by one on the other side, and by a sho
   options.difference_step = 0.2;
   objective.fails = [](const UnitPoint& x, std::uint64_t) { return x[0] > 0.45 || x[1] > 0.75; };
   Optimum run = minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.4, 0.6), options);
-  CHECK(run.failures >= 1);
+  CHECK(failures_of(objective) >= 1);
   CHECK(run.best.value < 1e-4);
   objective = bowl(Eigen::Vector2d(0.2, 0.2));
   objective.fails = [](const UnitPoint& x, std::uint64_t) { return x[0] > 0.55 && std::abs(x[1] - 0.5) > 0.06; };
   run = minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.6, 0.5), options);
-  CHECK(run.failures >= 2);
+  CHECK(failures_of(objective) >= 2);
   CHECK(run.best.value < 1e-4);
 }
 
-TEST_CASE("a direction in which everything fails is held, and the reason says so") {
+TEST_CASE("a direction in which everything fails is held") {
   Synthetic objective = bowl(Eigen::Vector2d(0.2, 0.2));
   objective.fails = [](const UnitPoint& x, std::uint64_t) { return std::abs(x[1] - 0.6) > 1e-6; };
   const Optimum run = minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.7, 0.6), CeresOptions{});
   CHECK(run.best.point[0] == Approx(0.2).margin(0.02));
   CHECK(run.best.point[1] == 0.6);
-  CHECK(run.reason.find("held") != std::string::npos);
-  CHECK(run.status != SearchStatus::converged);
 }
 
 TEST_CASE("two hundred failing regions end no solve at its start, and the best is the best that was seen") {
@@ -77,7 +79,7 @@ TEST_CASE("two hundred failing regions end no solve at its start, and the best i
     const Optimum run = minimise(simulated_problem(objective, one_packing), start, options);
     CHECK(objective.answered.size() <= 120);
     if (objective.fails(start, 1)) {
-      CHECK(run.status == SearchStatus::failed);
+      CHECK(objective.answered.size() == 1);
       continue;
     }
     ++feasible_starts;
@@ -97,20 +99,21 @@ TEST_CASE("a start that meets the goal costs one point") {
   Synthetic objective = bowl(Eigen::Vector2d(0.2, 0.2));
   CeresOptions options;
   const Optimum run = minimise(simulated_problem(objective, one_packing, 0.04), Eigen::Vector2d(0.3, 0.3), options);
-  CHECK(run.status == SearchStatus::converged);
+  CHECK(run.best.good_enough);
   CHECK(objective.answered.size() == 1);
 }
 
 TEST_CASE("budget, stop and exceptions end the solve with what was seen") {
   Synthetic objective = valley();
   objective.budget = 9;
-  CHECK(minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.2, 0.8), fine_options()).status ==
-        SearchStatus::budget_spent);
+  (void)minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.2, 0.8), fine_options());
   CHECK(objective.simulations <= 9);
   objective = valley();
   objective.stop = [&] { return objective.simulations >= 5; };
-  CHECK(minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.2, 0.8), fine_options()).status ==
-        SearchStatus::stopped);
+  const UnitPoint best =
+      minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.2, 0.8), fine_options()).best.point;
+  CHECK(best.size() == 2);
+  CHECK(objective.simulations <= 7);
   objective = valley();
   objective.fails = [&](const UnitPoint&, std::uint64_t) {
     if (objective.simulations > 5) throw std::out_of_range("broken");

@@ -49,14 +49,11 @@ TEST_CASE("every algorithm finds the bottom of a bowl") {
       CHECK(run.best.value == least_seen(objective));
       CHECK(run.evaluations == static_cast<int>(objective.answered.size()));
       CHECK(run.evaluations <= 1500);
-      CHECK(run.status != SearchStatus::failed);
     }
   }
 }
 
-TEST_CASE(
-    "no algorithm hangs, meets a number that is not finite, loses its best or claims what is not so when points fail") {
-  int converged = 0;
+TEST_CASE("no algorithm hangs, meets a number that is not finite, or loses its best when points fail") {
   for (const std::string_view name : nlopt_algorithm_names()) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
       CAPTURE(name, seed);
@@ -67,26 +64,11 @@ TEST_CASE(
       CHECK(objective.answered.size() <= 120);
       CHECK(run.evaluations == static_cast<int>(objective.answered.size()));
       const double least = least_seen(objective);
-      if (std::isinf(least)) {
-        CHECK(run.status == SearchStatus::failed);
-        continue;
-      }
-      CHECK(is_feasible(run.best));
+      CHECK(is_feasible(run.best) == std::isfinite(least));
+      if (std::isinf(least)) continue;
       CHECK(run.best.value == least);
-      if (run.status != SearchStatus::converged) continue;
-      ++converged;
-      for (Eigen::Index k = 0; k < start.size(); ++k) {
-        for (const double step : {-0.03, 0.03}) {
-          UnitPoint beside = run.best.point;
-          beside[k] = std::clamp(beside[k] + step, 0.0, 1.0);
-          const Response response = objective.evaluate({&beside, 1}, one_packing).at(0);
-          const bool refutes = is_feasible(response) && response.misfit < run.best.value - 1e-3;
-          CHECK_FALSE(refutes);
-        }
-      }
     }
   }
-  CHECK(converged > 100);
 }
 
 TEST_CASE("an algorithm ends with the evaluations, the budget or the wish to stop, whichever comes first") {
@@ -95,14 +77,13 @@ TEST_CASE("an algorithm ends with the evaluations, the budget or the wish to sto
     Synthetic objective = bowl(point_of({0.31, 0.62}));
     objective.budget = 21;
     const std::vector<std::uint64_t> packings{1, 2};
-    Optimum run = minimise(simulated_problem(objective, packings), point_of({0.9, 0.9}), options_for(name, 500));
-    CHECK(run.status == SearchStatus::budget_spent);
+    (void)minimise(simulated_problem(objective, packings), point_of({0.9, 0.9}), options_for(name, 500));
     CHECK(objective.simulations == 20);
 
     objective = bowl(point_of({0.31, 0.62}));
     objective.stop = [&] { return objective.simulations >= 7; };
-    run = minimise(simulated_problem(objective, one_packing), point_of({0.9, 0.9}), options_for(name, 500));
-    CHECK(run.status == SearchStatus::stopped);
+    const Optimum run =
+        minimise(simulated_problem(objective, one_packing), point_of({0.9, 0.9}), options_for(name, 500));
     CHECK(objective.simulations == 7);
     CHECK(run.best.value == least_seen(objective));
   }
@@ -112,7 +93,6 @@ TEST_CASE("a goal ends the run at the first point that meets it") {
   Synthetic objective = bowl(point_of({0.31, 0.62}));
   NloptOptions options = options_for("nelder_mead", 500);
   const Optimum run = minimise(simulated_problem(objective, one_packing, 0.02), point_of({0.9, 0.9}), options);
-  CHECK(run.status == SearchStatus::converged);
   CHECK(objective.answered.back().error <= 0.02);
   CHECK(objective.answered.back().misfit == run.best.value);
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -13,8 +12,8 @@ namespace pastefit {
 
 /// The misfit, and the residuals, of candidates on these packings as a problem for an optimiser.
 /// `simulations`: an `Objective`. `goal`: a feasible error at or below it is good enough; 0: none
-/// is. Requirements: packings are given; `simulations` and `packings` outlive the problem. Refuses when a stop is
-/// requested, and what the budget does not allow.
+/// is. Requirements: packings are given; `simulations` and `packings` outlive the problem. It may not be evaluated
+/// further when a stop is requested, or beyond the budget.
 inline Problem simulated_problem(Objective& simulations, std::span<const std::uint64_t> packings, double goal = 0) {
   if (packings.empty()) throw std::logic_error("simulated_problem: needs packings");
   Problem problem;
@@ -27,11 +26,8 @@ inline Problem simulated_problem(Objective& simulations, std::span<const std::ui
                          goal > 0 && response.error <= goal});
     return answers;
   };
-  problem.refuses = [&simulations, packings](int points) -> std::optional<Problem::Refusal> {
-    if (simulations.stop_requested()) return Problem::Refusal{SearchStatus::stopped, "a stop was requested"};
-    if (simulations.budget_left() < points * static_cast<int>(packings.size()))
-      return Problem::Refusal{SearchStatus::budget_spent, "the budget of simulations is spent"};
-    return std::nullopt;
+  problem.may_evaluate = [&simulations, packings](int points) {
+    return !simulations.stop_requested() && simulations.budget_left() >= points * static_cast<int>(packings.size());
   };
   return problem;
 }
