@@ -33,11 +33,6 @@ bool SimulationPool::stop_requested() const {
   return !store_faults_.empty();
 }
 
-double SimulationPool::core_s() const {
-  const std::lock_guard lock(mutex_);
-  return core_s_;
-}
-
 Faults SimulationPool::store_faults() const {
   const std::lock_guard lock(mutex_);
   return store_faults_;

@@ -71,7 +71,6 @@ class SimulationPool {
   static std::optional<StoredEvaluation> wait(Run& run);
 
   bool stop_requested() const;
-  double core_s() const;        ///< processor time of the finished simulations [s]
   Faults store_faults() const;  ///< empty unless an evaluation could not be stored
 
  private:
@@ -93,7 +92,7 @@ class SimulationPool {
 
   mutable std::mutex mutex_;  // guards what follows
   std::map<PackingKey, std::shared_future<std::shared_ptr<const Packing>>> packings_;
-  double core_s_ = 0;
+  double core_s_ = 0;  // processor time of the finished simulations
   Faults store_faults_;
 
   WorkerPool pool_;  // last: its threads use all of the above

@@ -129,17 +129,6 @@ void widen_by(std::vector<ParameterInterval>& intervals, const TrainingData& evi
   }
 }
 
-/// True if the linear combinations reproduce the uncertainties of the sample.
-bool explains(const std::vector<Combination>& combinations, const std::vector<ParameterInterval>& intervals) {
-  double gap = 0;
-  for (std::size_t j = 0; j < intervals.size(); ++j) {
-    double linear = 0;
-    for (const Combination& one : combinations) linear += std::pow(one.direction[j] * one.uncertainty, 2);
-    gap = std::max(gap, std::abs(std::sqrt(linear) - intervals[j].uncertainty));
-  }
-  return gap <= 0.2;
-}
-
 std::vector<std::vector<double>> correlation_of(const Moments& moments) {
   std::vector<std::vector<double>> out;
   const Eigen::MatrixXd& covariance = moments.covariance;
@@ -185,13 +174,11 @@ Inference infer(const TrainingData& evidence, const UnitPoint& recommended, cons
   seen.insert(seen.end(), evidence.points.begin(), evidence.points.end());
   for (const UnitPoint& point : fitting(model, seen, recommended)) widen_by(out.intervals, evidence, point);
   out.jumps = !model.trust().predicts(recommended);
-  out.linear = explains(out.combinations, out.intervals);
   for (Combination& combination : out.combinations) heed_sample(combination, evidence, moments);
   out.correlation = correlation_of(moments);
   out.conditions = evidence.conditions;
   out.family = family_of(model, sample, recommended, out.intervals, options.family);
-  if (!out.jumps)
-    out.gains = measurement_gains(model, sample, moments, recommended, out.combinations.front().lead, options.repeats);
+  if (!out.jumps) out.gains = measurement_gains(model, sample, moments, recommended, options.repeats);
   return out;
 }
 

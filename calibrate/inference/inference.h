@@ -45,13 +45,12 @@ struct Inference {
   std::vector<ParameterInterval> intervals;      ///< of the free parameters, in their order
   std::vector<std::vector<double>> correlation;  ///< of the free parameters in the posterior
   std::vector<Combination> combinations;         ///< best determined first; one for each free parameter
-  bool linear = false;                      ///< the combinations explain the intervals; if false, use the intervals
-  bool jumps = false;                       ///< the response jumps at the recommended candidate: no predictions
-  std::vector<EquivalentMaterial> family;   ///< far apart from each other; the recommended one first
-  std::vector<MeasurementGain> gains;       ///< best first
-  std::vector<ConditionEffect> conditions;  ///< effects of unstated conditions; included in the intervals
-  std::string recommended_because;          ///< reason for recommending the first of the family
-  int simulations = 0;                      ///< number of simulations used
+  bool jumps = false;                            ///< the response jumps at the recommended candidate: no predictions
+  std::vector<EquivalentMaterial> family;        ///< far apart from each other; the recommended one first
+  std::vector<MeasurementGain> gains;            ///< best first
+  std::vector<ConditionEffect> conditions;       ///< effects of unstated conditions; included in the intervals
+  std::string recommended_because;               ///< reason for recommending the first of the family
+  int simulations = 0;                           ///< number of simulations used
 };
 
 struct InferenceOptions {

@@ -179,7 +179,7 @@ bool met(const ResponseModel& model, std::size_t reading, const UnitPoint& recom
 /// linear regression in the sample: sqrt(1 - cov(x, m)^2/(var x (var m + error))), m: mean reading of a member of the
 /// sample, error: variance of the mean of the new measurements plus predictive variance.
 MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const std::vector<UnitPoint>& sample,
-                        const Moments& moments, std::size_t lead, int repeats, double typical_deviation) {
+                        const Moments& moments, int repeats, double typical_deviation) {
   const ReadingTrainingData& evidence = model.training_data().readings[reading];
   MeasurementGain gain;
   gain.reading = evidence.name;
@@ -202,7 +202,6 @@ MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const s
       covariance += deviations[static_cast<Eigen::Index>(i)] * (sample[i][j] - moments.mean[j]) / (count - 1);
     const double own = std::max(moments.covariance(j, j), 1e-12);
     const double left = std::sqrt(std::max(0.0, 1 - covariance * covariance / (own * (variance + error))));
-    if (static_cast<std::size_t>(j) == lead) gain.lead_narrowing = left;
     if (left >= gain.narrowing) continue;
     gain.narrowing = left;
     gain.parameter = model.training_data().parameters[static_cast<std::size_t>(j)].name;
@@ -213,15 +212,14 @@ MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const s
 }  // namespace
 
 std::vector<MeasurementGain> measurement_gains(const ResponseModel& model, const std::vector<UnitPoint>& sample,
-                                               const Moments& moments, const UnitPoint& recommended, std::size_t lead,
-                                               int repeats) {
+                                               const Moments& moments, const UnitPoint& recommended, int repeats) {
   const std::vector<ReadingTrainingData>& readings = model.training_data().readings;
   double typical_deviation = std::numeric_limits<double>::infinity();
   for (const std::size_t k : model.fitted()) typical_deviation = std::min(typical_deviation, readings[k].deviation);
   std::vector<MeasurementGain> gains;
   for (std::size_t k = 0; k < readings.size(); ++k)
     if (measurable(readings[k].name) && met(model, k, recommended))
-      gains.push_back(gain_of(model, k, sample, moments, lead, repeats, typical_deviation));
+      gains.push_back(gain_of(model, k, sample, moments, repeats, typical_deviation));
   std::ranges::stable_sort(gains, {}, &MeasurementGain::narrowing);
   return gains;
 }

@@ -29,17 +29,15 @@ Moments moments_of(const std::vector<UnitPoint>& sample);
 /// Predicted effect of further measurements of one reading on the posterior.
 struct MeasurementGain {
   std::string reading;
-  int measurements = 0;       ///< their number
-  double deviation = 0;       ///< standard deviation of one, in the reading's unit
-  std::string parameter;      ///< parameter whose standard deviation decreases most
-  double narrowing = 1;       ///< its standard deviation afterwards over that before
-  double lead_narrowing = 1;  ///< the same for the lead of the best determined combination
+  int measurements = 0;   ///< their number
+  double deviation = 0;   ///< standard deviation of one, in the reading's unit
+  std::string parameter;  ///< parameter whose standard deviation decreases most
+  double narrowing = 1;   ///< its standard deviation afterwards over that before
 };
 
 /// Gains of `repeats` further measurements of each reading that a laboratory can take and that the model meets, best
-/// first. `lead`: of the best determined combination.
+/// first.
 std::vector<MeasurementGain> measurement_gains(const ResponseModel& model, const std::vector<UnitPoint>& sample,
-                                               const Moments& moments, const UnitPoint& recommended, std::size_t lead,
-                                               int repeats);
+                                               const Moments& moments, const UnitPoint& recommended, int repeats);
 
 }  // namespace pastefit

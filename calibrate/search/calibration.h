@@ -34,7 +34,6 @@ struct Reach {
   double lowest = 0, highest = 0;  ///< [unit of the reading]
   bool all_above = false;          ///< all simulations, coarse ones corrected, exceed measurement plus tolerance
   bool all_below = false;          ///< all simulations, coarse ones corrected, are below measurement less tolerance
-  double packing_noise = 0;  ///< standard deviation between packings of one candidate [unit of the reading]; 0: unknown
 };
 
 /// Result of a search.
@@ -48,8 +47,6 @@ struct Calibration {
   std::vector<Reach> reach;       ///< of each reading
   int simulations = 0;            ///< spent
   int coarse_simulations = 0;     ///< with coarse grains
-  int failures = 0;               ///< failed simulations
-  int rounds = 0;                 ///< confirmations
 };
 
 }  // namespace pastefit

@@ -76,7 +76,6 @@ void ConfirmationPhase::conclude(const Response& confirmation, Verdict verdict) 
   confirmed_ = verdict == Verdict::meets;
   report(confirmation);
   if (last_) return;
-  ++rounds_;
   if (!confirmed_) state_.refuted.push_back(judged);
   state_.history.hold_back(state_.options.confirmation_packings);
 }

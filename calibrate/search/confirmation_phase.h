@@ -26,7 +26,6 @@ class ConfirmationPhase : public SearchPhase {
   bool advance() override;
 
   bool confirmed() const { return confirmed_; }
-  int rounds() const { return rounds_; }
   const Response& best() const { return best_; }                  ///< on all packings; no point if none was confirmed
   const Response& search() const { return search_; }              ///< on packings before its confirmation
   const Response& confirmation() const { return confirmation_; }  ///< on the fresh packings
@@ -48,7 +47,6 @@ class ConfirmationPhase : public SearchPhase {
   bool last_ = false;   // `begin_last` was called
   bool asked_ = false;  // `fresh_` was enqueued
   bool confirmed_ = false;
-  int rounds_ = 0;
   Response best_, search_, confirmation_;
 };
 

@@ -249,11 +249,6 @@ std::optional<Response> EvaluationHistory::best_single() const {
   return best;
 }
 
-int EvaluationHistory::failures() const {
-  return static_cast<int>(
-      std::count_if(singles_.begin(), singles_.end(), [](const auto& s) { return !is_feasible(s); }));
-}
-
 bool EvaluationHistory::any_feasible() const {
   return std::any_of(singles_.begin(), singles_.end(), [](const auto& s) { return is_feasible(s); });
 }
@@ -263,28 +258,14 @@ std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const d
   std::vector<Reach> reach;
   for (int k = 0; k < std::ssize(allowances); ++k) {
     const double allowance = allowances[static_cast<std::size_t>(k)];
-    Reach one{infinity, -infinity, true, true, 0};
-    double squares = 0;
-    int freedom = 0;
+    Reach one{infinity, -infinity, true, true};
     for (const Response& single : singles) {
       if (!is_feasible(single) || !has_reading(single, k)) continue;
       one.lowest = std::min(one.lowest, single.readings[k]);
       one.highest = std::max(one.highest, single.readings[k]);
       one.all_above = one.all_above && single.residuals[k] > allowance;
       one.all_below = one.all_below && single.residuals[k] < -allowance;
-      // Pooled over candidates: deviations from the mean of the packings of each.
-      double sum = 0;
-      int count = 0;
-      for (const Response& other : singles) {
-        if (!is_whole(other) || other.point != single.point) continue;
-        sum += other.readings[k];
-        ++count;
-      }
-      if (count < 2 || !is_whole(single)) continue;
-      squares += std::pow(single.readings[k] - sum / count, 2) * count / (count - 1.0);
-      ++freedom;
     }
-    if (freedom > 0) one.packing_noise = std::sqrt(squares / freedom);
     if (one.lowest > one.highest) one = Reach{};
     reach.push_back(one);
   }

@@ -85,7 +85,6 @@ class EvaluationHistory {
   /// Best known starting point: on these packings if any, else on others.
   UnitPoint best_point(std::span<const std::uint64_t> packings) const;
   int simulations() const { return (at_start_ - queue_.budget_left()) * scoring().simulations_each(); }
-  int failures() const;
   bool any_feasible() const;
 
  private:

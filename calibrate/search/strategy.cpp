@@ -167,7 +167,6 @@ void Strategy::conclude() {
   result_.best = confirmation_.best();
   result_.search = confirmation_.search();
   result_.confirmation = confirmation_.confirmation();
-  result_.rounds = confirmation_.rounds();
   if (result_.best.point.size() == 0 && state_.history.any_feasible()) {
     result_.search = state_.history.best_on(state_.common).value_or(Response{});
     if (result_.search.point.size() == 0)
@@ -179,7 +178,6 @@ void Strategy::conclude() {
   result_.history = state_.history.responses();
   result_.simulations = state_.history.simulations();
   result_.coarse_simulations = static_cast<int>(state_.history.coarse_singles().size());
-  result_.failures = state_.history.failures();
   result_.reach = reach();
   Ending ending{confirmation_.confirmed(), state_.history.stop_requested(), state_.history.any_feasible(), with_coarse_,
                 searched_};

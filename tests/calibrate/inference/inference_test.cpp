@@ -106,7 +106,6 @@ TEST_CASE("the interval of a parameter that is seen alone is that of the closed 
   CHECK(std::abs(inference.combinations[0].direction[0]) == Approx(1).margin(0.01));
   CHECK(inference.combinations[0].lead_width == Approx(1.96 * 0.05).margin(0.012));
   CHECK_FALSE(inference.combinations[1].determined());
-  CHECK(inference.linear);
 }
 
 TEST_CASE("repeats narrow an interval as their number does") {

@@ -193,9 +193,9 @@ TEST_CASE("a laboratory that few candidates meet while most fail is not called o
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Synthetic objective = made(seed);
     const Calibration calibration = search(objective, eighty_simulations(seed), {}, reading, parameters);
-    CAPTURE(seed, calibration.simulations, calibration.failures, calibration.reason);
+    CAPTURE(seed, calibration.simulations, calibration.reason);
     CHECK(calibration.status != CalibrationStatus::out_of_reach);
-    CHECK(calibration.failures > 0);
+    CHECK(std::ranges::any_of(calibration.history, &Response::failed));
   }
 }
 

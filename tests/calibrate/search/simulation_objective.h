@@ -29,7 +29,6 @@ class SimulationObjective : public Objective, public StudyScoring {
   std::vector<Response> earlier() const override { return answers_.earlier(); }
   bool stop_requested() const override { return pool_.stop_requested(); }
   EvaluationCounts counts() const { return counts_; }
-  double core_s() const { return pool_.core_s(); }
 
   void begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings, bool tried) override {
     for (const UnitPoint& point : points)

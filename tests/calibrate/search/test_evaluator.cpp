@@ -265,7 +265,6 @@ TEST_CASE("core-seconds are counted over all simulations, and spent they are a s
   CHECK_FALSE(objective.stop_requested());
   (void)objective.evaluate(std::vector<UnitPoint>{at(0.1, 0.5), at(0.2, 0.5)}, kPackings);
   CHECK(objective.stop_requested());
-  CHECK(objective.core_s() > 0.05);
 }
 
 TEST_CASE("what is known of a parameter beforehand is a residual of its own, in its own deviations") {
