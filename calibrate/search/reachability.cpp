@@ -189,9 +189,9 @@ bool ReachPhase::probe(std::size_t reading) {
   const Nearing approach(history_.singles(), reading, history_.tolerance(reading));
   if (!approach.suspect() && !approach.tells_nothing()) return true;
   // The readings of stopped simulations are needed in full.
-  if (const auto ended = censored(history_.singles(), options_.packing); !ended.empty()) {
+  if (const auto ended = censored(history_.singles(), packing_); !ended.empty()) {
     if (history_.budget_left() < static_cast<int>(ended.size())) return true;
-    history_.evaluate(ended, {&options_.packing, 1});
+    history_.evaluate(ended, {&packing_, 1});
     return false;
   }
   if (!approach.suspect()) return true;
@@ -200,10 +200,10 @@ bool ReachPhase::probe(std::size_t reading) {
   const UnitPoint hopeful = hopeful_of(approach, model, allowance);
   found_ = claim(approach, model, allowance, hopeful);
   if (found_) found_->reading = reading;
-  if (found_ || probes_ >= options_.probes || history_.budget_left() < 1) return true;
+  if (found_ || probes_ >= most_probes_ || history_.budget_left() < 1) return true;
   ++probes_;
   known_ = history_.singles().size();
-  history_.evaluate({&hopeful, 1}, {&options_.packing, 1});
+  history_.evaluate({&hopeful, 1}, {&packing_, 1});
   return false;
 }
 

@@ -25,11 +25,6 @@ struct OutOfReach {
   std::vector<Bound> bounds;  ///< bounds that limit the reading: a step inwards moves it away; may be empty
 };
 
-struct ReachOptions {
-  std::uint64_t packing = 1;  ///< of the probes
-  int probes = 12;            ///< simulations allowed
-};
-
 /// Tests whether the measured readings lie within the range of the model, before the search spends its budget.
 ///
 /// A fitted reading is suspect if all simulations miss it on the same side by more than two standard deviations of the
@@ -45,7 +40,9 @@ struct ReachOptions {
 /// cube may be overlooked; `contradicts` detects it when the search finds it.
 class ReachPhase : public SearchPhase {
  public:
-  ReachPhase(EvaluationHistory& history, const ReachOptions& options) : history_(history), options_(options) {}
+  /// `packing`: of the probes; `most_probes`: simulations allowed.
+  ReachPhase(EvaluationHistory& history, std::uint64_t packing, int most_probes)
+      : history_(history), packing_(packing), most_probes_(most_probes) {}
   bool advance() override;
   const std::optional<OutOfReach>& found() const { return found_; }
 
@@ -54,7 +51,8 @@ class ReachPhase : public SearchPhase {
   bool probe(std::size_t reading);
 
   EvaluationHistory& history_;
-  const ReachOptions options_;
+  const std::uint64_t packing_;
+  const int most_probes_;
   std::size_t reading_ = 0;
   int probes_ = 0;                    // simulated
   std::optional<std::size_t> known_;  // number of simulations before the last probe

@@ -56,7 +56,13 @@ bool ScreeningPhase::advance() {
   if (known_ < 0) {
     history.enter("screening");
     known_ = static_cast<int>(history.singles().size());
+    if (fidelity_ == Fidelity::coarse) {
+      history.evaluate_coarse(likely_points(state_, state_.options.screening),
+                              packings_of_coarse(state_.options.seed, 1));
+      return false;
+    }
   }
+  if (fidelity_ == Fidelity::coarse) return true;
   const bool enough = history.any_feasible() && known_ + asked_ >= state_.options.screening;
   if (enough || history.stop_requested()) return true;
   const int missing = state_.options.screening - (history.any_feasible() ? known_ + asked_ : 0);
@@ -66,15 +72,6 @@ bool ScreeningPhase::advance() {
   const auto points = likely_points(state_, asked_ + count);
   history.try_out(std::span(points).last(static_cast<std::size_t>(count)), std::span(state_.common).first(1));
   asked_ += count;
-  return false;
-}
-
-bool CoarseScreeningPhase::advance() {
-  if (asked_) return true;
-  asked_ = true;
-  state_.history.enter("screening");
-  state_.history.evaluate_coarse(likely_points(state_, state_.options.screening),
-                                 packings_of_coarse(state_.options.seed, 1));
   return false;
 }
 

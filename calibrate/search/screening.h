@@ -18,27 +18,17 @@ std::uint64_t hash_of(std::uint64_t seed, std::uint64_t counter);
 std::vector<UnitPoint> screening_points(int dimension, int count, std::uint64_t seed);
 
 /// First phase: space-filling points, simulated on one packing all at once. If all of them fail, it continues the
-/// sequence until half of the budget is spent.
+/// sequence until half of the budget is spent. With coarse grains it takes no decision from the answers.
 class ScreeningPhase : public SearchPhase {
  public:
-  explicit ScreeningPhase(StrategyState& state) : state_(state) {}
+  ScreeningPhase(StrategyState& state, Fidelity fidelity) : state_(state), fidelity_(fidelity) {}
   bool advance() override;
 
  private:
   StrategyState& state_;
+  const Fidelity fidelity_;
   int known_ = -1;  // simulations at its start; negative: not started
   int asked_ = 0;
-};
-
-/// The same with coarse grains; takes no decision from the answers.
-class CoarseScreeningPhase : public SearchPhase {
- public:
-  explicit CoarseScreeningPhase(StrategyState& state) : state_(state) {}
-  bool advance() override;
-
- private:
-  StrategyState& state_;
-  bool asked_ = false;
 };
 
 }  // namespace pastefit

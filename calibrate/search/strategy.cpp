@@ -19,7 +19,7 @@ Strategy::Strategy(CandidateQueue& queue, const SearchOptions& options, const Se
       readings_(start.readings),
       parameters_(start.parameters) {
   state_.history.hold_back(state_.options.confirmation_packings);
-  begin(Stage::coarse_screening, with_coarse_ ? std::make_unique<CoarseScreeningPhase>(state_) : nullptr);
+  begin(Stage::coarse_screening, with_coarse_ ? std::make_unique<ScreeningPhase>(state_, Fidelity::coarse) : nullptr);
 }
 
 void Strategy::advance() {
@@ -50,8 +50,8 @@ void Strategy::begin_reach() {
   const EvaluationHistory& history = state_.history;
   if (history.singles().empty() || !history.any_feasible() || history.stop_requested()) return begin_candidates();
   const int spare = history.budget_left() - static_cast<int>(state_.common.size());
-  const ReachOptions options{state_.common.front(), std::min(state_.options.screening, spare)};
-  begin(Stage::reach, std::make_unique<ReachPhase>(state_.history, options));
+  const int most_probes = std::min(state_.options.screening, spare);
+  begin(Stage::reach, std::make_unique<ReachPhase>(state_.history, state_.common.front(), most_probes));
 }
 
 /// Simulates the candidate nearest to the unreachable reading on all common packings.
@@ -84,7 +84,7 @@ void Strategy::go_on() {
   switch (stage_) {
     case Stage::coarse_screening: {
       const bool known = !history.training_data().empty();
-      return begin(Stage::screening, known ? nullptr : std::make_unique<ScreeningPhase>(state_));
+      return begin(Stage::screening, known ? nullptr : std::make_unique<ScreeningPhase>(state_, Fidelity::fine));
     }
     case Stage::screening:
       return begin_bracket();

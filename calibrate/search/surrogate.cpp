@@ -172,13 +172,14 @@ std::vector<double> Surrogate::within(std::span<const Eigen::VectorXd> bounds, c
 }
 
 double Surrogate::MisfitPosterior::improvement(double bound) const {
-  bound -= certain_;
+  bound -= fixed;
   if (bound <= 0) return 0;
   constexpr double narrow =
       1e8;  // shape beyond which the gamma distribution is a point mass, and its series do not converge
-  const double shape = mean_ * mean_ / variance_, place = bound * mean_ / variance_;
-  if (!(shape < narrow)) return std::max(0.0, bound - mean_);
-  return std::max(0.0, bound * boost::math::gamma_p(shape, place) - mean_ * boost::math::gamma_p(shape + 1, place));
+  const double shape = uncertain_mean * uncertain_mean / variance, place = bound * uncertain_mean / variance;
+  if (!(shape < narrow)) return std::max(0.0, bound - uncertain_mean);
+  return std::max(0.0,
+                  bound * boost::math::gamma_p(shape, place) - uncertain_mean * boost::math::gamma_p(shape + 1, place));
 }
 
 Eigen::VectorXd Surrogate::fantasise(const UnitPoint& point, int packings, const Eigen::VectorXd& deviates) {

@@ -33,16 +33,11 @@ class Surrogate {
 
   /// Distribution of the misfit of a point, without the noise of single packings: a fixed part plus half the sum of
   /// squared normal variables, approximated by a gamma distribution with the same mean and variance.
-  class MisfitPosterior {
-   public:
-    MisfitPosterior(double certain, double mean, double variance)
-        : certain_(certain), mean_(mean), variance_(variance) {}
-    double mean() const { return certain_ + mean_; }
+  struct MisfitPosterior {
+    double fixed, uncertain_mean, variance;
+    double mean() const { return fixed + uncertain_mean; }
     /// Expected improvement on a bound: mean of max(0, bound - misfit).
     double improvement(double bound) const;
-
-   private:
-    double certain_, mean_, variance_;
   };
   /// The fixed part is the cost of the rejected share plus half the excess variance of a mean over packings. The rest
   /// includes the cost of failures and a weak normal prior about the middle of the bounds.

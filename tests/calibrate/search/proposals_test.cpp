@@ -123,7 +123,7 @@ TEST_CASE("the improvement that a point promises is the mean of what its misfit 
     mean += 0.5 * (m + v);
     variance += v * (0.5 * v + m);
   }
-  const Surrogate::MisfitPosterior misfit_posterior(0, mean, variance);
+  const Surrogate::MisfitPosterior misfit_posterior{0, mean, variance};
   constexpr double bound = 0.7;
   double improvement = 0;
   constexpr int draws = 200'000;
@@ -134,7 +134,7 @@ TEST_CASE("the improvement that a point promises is the mean of what its misfit 
   }
   // Mean and variance are exact, the shape is a gamma distribution's.
   CHECK(misfit_posterior.improvement(bound) == Approx(improvement).epsilon(0.1));
-  CHECK(Surrogate::MisfitPosterior(0, 0.4, 0).improvement(bound) == Approx(bound - 0.4));
+  CHECK(Surrogate::MisfitPosterior{0, 0.4, 0}.improvement(bound) == Approx(bound - 0.4));
 }
 
 TEST_CASE("what is under way is spent, and answered in the order of asking") {

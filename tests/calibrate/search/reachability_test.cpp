@@ -24,7 +24,7 @@ struct Screening {
     answered.answers_of(history);
   }
   std::optional<OutOfReach> out_of_reach() {
-    ReachPhase phase(history, {});
+    ReachPhase phase(history, 1, 12);
     answered.run(phase, history);
     return phase.found();
   }

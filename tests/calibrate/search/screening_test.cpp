@@ -99,7 +99,7 @@ TEST_CASE("a screening stays in the likely part of the bounds, and fills it") {
   Answered answered(slump);
   const std::function<void(const Progress&)> unheard;
   StrategyState state(answered.queue, options, {}, unheard);
-  ScreeningPhase phase(state);
+  ScreeningPhase phase(state, Fidelity::fine);
   answered.run(phase, state.history);
   double lowest = 1, highest = 0, lowest_of_second = 1;
   for (const Response& one : state.history.singles()) {
