@@ -23,6 +23,15 @@ std::vector<Response> without_cut_off(std::vector<Response> responses, bool stop
   return responses;
 }
 
+/// Best of the responses that count; without point if none does.
+template <class Counts>
+Response best_of(std::span<const Response> responses, const Counts& counts) {
+  Response best;
+  for (const Response& one : responses)
+    if (counts(one) && is_better(one, best)) best = one;
+  return best;
+}
+
 }  // namespace
 
 EvaluationHistory::EvaluationHistory(CandidateQueue& queue, std::span<const Response> earlier,
@@ -75,12 +84,7 @@ void EvaluationHistory::take_answers() {
     answers_ = std::move(responses);
     keep(answers_, awaited.packings);
   } else if (!stop_requested()) {
-    for (std::size_t k = 0; k < awaited.packings; ++k)
-      for (const Response& response : responses) {
-        Response single = scoring().response_of({response.evaluations[k]});
-        weigh(single);
-        keep_single(single, coarse_singles_);
-      }
+    keep_singles(responses, awaited.packings, coarse_singles_);
     report();
   }
 }
@@ -90,21 +94,24 @@ std::vector<Response> EvaluationHistory::responses_to(const Awaited& awaited) {
   const std::vector<Evaluation> answers = queue_.answers(awaited.numbers);
   for (auto next = answers.begin(); next != answers.end(); next += static_cast<std::ptrdiff_t>(awaited.packings)) {
     responses.push_back(scoring().response_of({next, next + static_cast<std::ptrdiff_t>(awaited.packings)}));
-    weigh(responses.back());
+    weigh(responses.back(), factors_);
   }
   return responses;
 }
 
-/// Keeps single simulations, packing by packing, and the responses.
-void EvaluationHistory::keep(std::span<const Response> responses, std::size_t packings) {
+/// Keeps single simulations, packing by packing.
+void EvaluationHistory::keep_singles(std::span<const Response> responses, std::size_t packings,
+                                     std::vector<Response>& singles) {
   for (std::size_t k = 0; k < packings; ++k)
-    for (const Response& response : responses) {
-      const std::vector<Response> single{scoring().response_of({response.evaluations[k]})};
-      for (Response& one : without_cut_off(single, stop_requested())) {
-        weigh(one);
-        keep_single(one, singles_);
+    for (const Response& response : responses)
+      for (Response& one : without_cut_off({scoring().response_of({response.evaluations[k]})}, stop_requested())) {
+        weigh(one, factors_);
+        keep_single(one, singles);
       }
-    }
+}
+
+void EvaluationHistory::keep(std::span<const Response> responses, std::size_t packings) {
+  keep_singles(responses, packings, singles_);
   note(without_cut_off({responses.begin(), responses.end()}, stop_requested()));
 }
 
@@ -115,7 +122,7 @@ Response EvaluationHistory::recall(const UnitPoint& point, std::span<const std::
       if (one.point == point && one.packings.front() == packing) evaluations.push_back(one.evaluations.front());
   if (evaluations.size() != packings.size()) throw std::logic_error("recall: a point that was not simulated there");
   Response response = scoring().response_of(std::move(evaluations));
-  weigh(response);
+  weigh(response, factors_);
   note({&response, 1});
   return response;
 }
@@ -154,9 +161,9 @@ double EvaluationHistory::allowed_misfit() const {
   return 0.5 * allowances().squaredNorm();
 }
 
-void EvaluationHistory::weigh(Response& response) const {
-  if (factors_.size() == 0 || !is_feasible(response)) return;
-  response.residuals.array() *= factors_.array();
+void EvaluationHistory::weigh(Response& response, const Eigen::VectorXd& factors) {
+  if (factors.size() == 0 || !is_feasible(response)) return;
+  response.residuals.array() *= factors.array();
   response.misfit = 0.5 * response.residuals.squaredNorm();
 }
 
@@ -191,13 +198,8 @@ void EvaluationHistory::measure_noise() {
   const Eigen::ArrayXd factors = (1 + variance / common_packings_).sqrt().inverse();
   const Eigen::VectorXd change = factors / factors_.array();
   factors_ = factors;
-  for (std::vector<Response>* kept : {&responses_, &singles_, &coarse_singles_}) {
-    for (Response& response : *kept) {
-      if (!is_feasible(response)) continue;
-      response.residuals.array() *= change.array();
-      response.misfit = 0.5 * response.residuals.squaredNorm();
-    }
-  }
+  for (std::vector<Response>* kept : {&responses_, &singles_, &coarse_singles_})
+    for (Response& response : *kept) weigh(response, change);
 }
 
 void EvaluationHistory::report(const std::string& note) const {
@@ -214,15 +216,15 @@ void EvaluationHistory::keep_single(const Response& response, std::vector<Respon
     *known = response;
 }
 
-std::optional<Response> EvaluationHistory::best_on(std::span<const std::uint64_t> packings) const {
-  Response best;
-  for (const Response& response : responses_) {
-    if (is_whole(response) && std::ranges::equal(response.packings, packings) && is_better(response, best)) {
-      best = response;
-    }
-  }
-  if (best.point.size() == 0) return std::nullopt;
-  return best;
+Response EvaluationHistory::best_on(std::span<const std::uint64_t> packings) const {
+  const auto counts = [&](const Response& one) { return is_whole(one) && std::ranges::equal(one.packings, packings); };
+  return best_of(responses_, counts);
+}
+
+Response EvaluationHistory::best(std::span<const std::uint64_t> packings) const {
+  Response best = best_on(packings);
+  if (best.point.size() == 0) best = best_of(responses_, is_whole);
+  return best.point.size() > 0 ? best : best_of(singles_, is_whole);
 }
 
 std::vector<Response> EvaluationHistory::training_data() const {
@@ -232,21 +234,9 @@ std::vector<Response> EvaluationHistory::training_data() const {
 }
 
 UnitPoint EvaluationHistory::best_point(std::span<const std::uint64_t> packings) const {
-  if (const auto best = best_on(packings)) return best->point;
-  Response best;
-  for (const Response& single : training_data()) {
-    if (is_feasible(single) && is_better(single, best)) best = single;
-  }
-  return best.point;
-}
-
-std::optional<Response> EvaluationHistory::best_single() const {
-  Response best;
-  for (const Response& single : singles_) {
-    if (is_whole(single) && is_better(single, best)) best = single;
-  }
-  if (best.point.size() == 0) return std::nullopt;
-  return best;
+  const Response best = best_on(packings);
+  if (best.point.size() > 0) return best.point;
+  return best_of(training_data(), [](const Response& one) { return is_feasible(one); }).point;
 }
 
 bool EvaluationHistory::any_feasible() const {

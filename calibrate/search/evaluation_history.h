@@ -73,10 +73,8 @@ class EvaluationHistory {
   /// Reports a message to the caller.
   void say(const std::string& note) const { report(note); }
 
-  /// Best complete response on exactly these packings.
-  std::optional<Response> best_on(std::span<const std::uint64_t> packings) const;
-  /// Best complete response on one packing.
-  std::optional<Response> best_single() const;
+  /// Best complete response: on exactly these packings if any, else on any, else on one; without point if none.
+  Response best(std::span<const std::uint64_t> packings) const;
   const std::vector<Response>& responses() const { return responses_; }
   const std::vector<Response>& singles() const { return singles_; }  ///< each on one packing, earlier ones too
   const std::vector<Response>& coarse_singles() const { return coarse_singles_; }
@@ -99,8 +97,12 @@ class EvaluationHistory {
   std::vector<Response> responses_to(const Awaited& awaited);
   void keep(std::span<const Response> responses, std::size_t packings);
   void note(std::span<const Response> answered);
+  /// Best complete response on exactly these packings; without point if none.
+  Response best_on(std::span<const std::uint64_t> packings) const;
+  void keep_singles(std::span<const Response> responses, std::size_t packings, std::vector<Response>& singles);
   static void keep_single(const Response& response, std::vector<Response>& singles);
-  void weigh(Response& response) const;
+  /// Multiplies the residuals of a feasible response by `factors`; none if empty.
+  static void weigh(Response& response, const Eigen::VectorXd& factors);
   void measure_noise();
   /// Variance of each weighted residual; empty if no point has two packings.
   Eigen::ArrayXd variance_between_packings() const;

@@ -168,12 +168,7 @@ void Strategy::conclude() {
   result_.search = confirmation_.search();
   result_.confirmation = confirmation_.confirmation();
   if (result_.best.point.size() == 0 && state_.history.any_feasible()) {
-    result_.search = state_.history.best_on(state_.common).value_or(Response{});
-    if (result_.search.point.size() == 0)
-      for (const Response& seen : state_.history.responses())
-        if (is_whole(seen) && is_better(seen, result_.search)) result_.search = seen;
-    if (result_.search.point.size() == 0) result_.search = state_.history.best_single().value_or(Response{});
-    result_.best = result_.search;
+    result_.best = result_.search = state_.history.best(state_.common);
   }
   result_.history = state_.history.responses();
   result_.simulations = state_.history.simulations();
