@@ -1,8 +1,8 @@
-#include "calibrate/search/conclusion.h"
+#include <algorithm>
 
 #include "calibrate/base/text.h"
 #include "calibrate/judge/verdict.h"
-#include "calibrate/search/calibration.h"
+#include "calibrate/search/strategy.h"
 
 namespace pastefit {
 
@@ -53,27 +53,28 @@ std::string doubt_about(const Calibration& result, const ErrorUnit& unit, double
 
 }  // namespace
 
-void explain(Calibration& result, const Ending& ending, const ErrorUnit& unit, std::span<const std::string> readings,
-             std::span<const std::string> parameters) {
+void Strategy::explain(const std::optional<OutOfReach>& out_of_reach) {
+  Calibration& result = result_;
+  const ErrorUnit unit = state_.scoring().error_unit();
   const std::string coarse =
-      ending.with_coarse ? " and " + std::to_string(result.coarse_simulations) + " with coarse grains" : "";
+      with_coarse_ ? " and " + std::to_string(result.coarse_simulations) + " with coarse grains" : "";
   const std::string spent = " (" + std::to_string(result.simulations) + " simulations" + coarse + ").";
-  if (ending.confirmed) {
+  if (confirmation_.confirmed()) {
     result.status = CalibrationStatus::confirmed;
     result.reason = "The candidate differs from the measurement by " + unit.words(result.confirmation.error) + " on " +
                     std::to_string(result.confirmation.packings.size()) + " fresh packings, within " +
                     tolerance_in_words(unit) + spent;
-  } else if (ending.stopped) {
+  } else if (state_.history.stop_requested()) {
     result.status = CalibrationStatus::stopped;
     result.reason = (result.best.point.size() > 0
                          ? "The search was stopped; this is the best material so far"
                          : "The search was stopped before a simulation had all its readings; --resume continues") +
                     spent;
-  } else if (ending.out_of_reach && !ending.searched) {
+  } else if (out_of_reach && !searched_) {
     result.status = CalibrationStatus::out_of_reach;
-    result.reason = describe(*ending.out_of_reach, readings, parameters) +
+    result.reason = describe(*out_of_reach, readings_, parameters_) +
                     " The search was not started; this is the nearest material" + spent;
-  } else if (!ending.any_feasible) {
+  } else if (!state_.history.any_feasible()) {
     result.status = CalibrationStatus::failed;
     result.reason =
         "Every simulation failed" + spent + " Look at the reasons, and move the bounds away from that region.";
@@ -81,14 +82,14 @@ void explain(Calibration& result, const Ending& ending, const ErrorUnit& unit, s
     result.reason = "No simulation of a candidate is complete" + spent + " Allow more simulations.";
   } else {
     result.status = CalibrationStatus::unconfirmed;
-    result.reason = doubt_about(result, unit, ending.rejected_share, spent);
+    result.reason = doubt_about(result, unit, state_.scoring().rejected_share(), spent);
     for (std::size_t k = 0; k < result.reach.size(); ++k) {
       const Reach& reach = result.reach[k];
-      const std::string name = k < readings.size() ? readings[k] : "reading " + std::to_string(k + 1);
+      const std::string name = k < readings_.size() ? readings_[k] : "reading " + std::to_string(k + 1);
       result.reason +=
           " Simulated values of " + name + ": " + format("%.3g", reach.lowest) + " to " + format("%.3g", reach.highest);
       if (reach.all_above || reach.all_below) {
-        const bool certain = ending.out_of_reach && ending.out_of_reach->reading == k;
+        const bool certain = out_of_reach && out_of_reach->reading == k;
         if (certain) result.status = CalibrationStatus::out_of_reach;
         result.reason +=
             std::string(", all ") + (reach.all_above ? "above" : "below") + " the measured one" +
@@ -96,9 +97,10 @@ void explain(Calibration& result, const Ending& ending, const ErrorUnit& unit, s
       }
       result.reason += ".";
     }
-    if (result.status == CalibrationStatus::out_of_reach && ending.out_of_reach)
-      result.reason += " " + describe(*ending.out_of_reach, readings, parameters);
-    if (ending.some_censored) result.reason += " Runs that were stopped early enter as bounds.";
+    if (result.status == CalibrationStatus::out_of_reach && out_of_reach)
+      result.reason += " " + describe(*out_of_reach, readings_, parameters_);
+    if (std::ranges::any_of(state_.history.singles(), &Response::censored))
+      result.reason += " Runs that were stopped early enter as bounds.";
   }
 }
 

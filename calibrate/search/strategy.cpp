@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "calibrate/search/candidate_search.h"
-#include "calibrate/search/conclusion.h"
 #include "calibrate/search/low_fidelity.h"
 #include "calibrate/search/recommendation.h"
 #include "calibrate/search/screening.h"
@@ -174,13 +173,10 @@ void Strategy::conclude() {
   result_.simulations = state_.history.simulations();
   result_.coarse_simulations = static_cast<int>(state_.history.coarse_singles().size());
   result_.reach = reach();
-  Ending ending{confirmation_.confirmed(), state_.history.stop_requested(), state_.history.any_feasible(), with_coarse_,
-                searched_};
-  if (!confirmation_.confirmed() && !ending.stopped)
-    ending.out_of_reach = searched_ ? known_out_of_reach(state_.history, ReachOf::means) : out_of_reach_;
-  ending.some_censored = std::ranges::any_of(state_.history.singles(), &Response::censored);
-  ending.rejected_share = state_.scoring().rejected_share();
-  explain(result_, ending, state_.scoring().error_unit(), readings_, parameters_);
+  std::optional<OutOfReach> out_of_reach;
+  if (!confirmation_.confirmed() && !state_.history.stop_requested())
+    out_of_reach = searched_ ? known_out_of_reach(state_.history, ReachOf::means) : out_of_reach_;
+  explain(out_of_reach);
   stage_ = Stage::over;
 }
 

@@ -86,6 +86,8 @@ class Strategy {
   /// Range of each reading, corrected coarse simulations included.
   std::vector<Reach> reach() const;
   void conclude();
+  /// Sets status and reason of the result (`conclusion.cpp`); its other fields are set. `out_of_reach`: as known now.
+  void explain(const std::optional<OutOfReach>& out_of_reach);
 
   const bool with_coarse_;
   StrategyState state_;
