@@ -50,7 +50,7 @@ enum class Verdict {
 /// indices are unknown (for c = 0.2 none of 8, 1 of 16); it is refuted if P(p <= c) < 0.1 by either (3 of 8).
 /// `rejected_share` is c; 1: heaps are not judged. If only one of several heaps is accepted, the scatter is unknown:
 /// undecided, unless refuted. Limits: the noise of a single packing is unknown and counts as 0. A material whose true
-/// error equals the tolerance meets with probability 0.5 (errors: `calibrate/search/strategy.h`).
+/// error equals the tolerance meets with probability 0.5 (errors: `calibrate/search/search.h`).
 Verdict verdict_on(const Evidence& evidence, double rejected_share);
 
 /// The same for the readings only.

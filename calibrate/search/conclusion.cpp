@@ -2,7 +2,7 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/judge/verdict.h"
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 
 namespace pastefit {
 
@@ -53,7 +53,7 @@ std::string doubt_about(const Calibration& result, const ErrorUnit& unit, double
 
 }  // namespace
 
-void Strategy::explain(const std::optional<OutOfReach>& out_of_reach) {
+void Search::explain(const std::optional<OutOfReach>& out_of_reach) {
   Calibration& result = result_;
   const ErrorUnit unit = state_.scoring().error_unit();
   const std::string coarse =
@@ -72,7 +72,7 @@ void Strategy::explain(const std::optional<OutOfReach>& out_of_reach) {
                     spent;
   } else if (out_of_reach && !searched_) {
     result.status = CalibrationStatus::out_of_reach;
-    result.reason = describe(*out_of_reach, readings_, parameters_) +
+    result.reason = describe(*out_of_reach, start_.readings, start_.parameters) +
                     " The search was not started; this is the nearest material" + spent;
   } else if (!state_.history.any_feasible()) {
     result.status = CalibrationStatus::failed;
@@ -85,7 +85,7 @@ void Strategy::explain(const std::optional<OutOfReach>& out_of_reach) {
     result.reason = doubt_about(result, unit, state_.scoring().rejected_share(), spent);
     for (std::size_t k = 0; k < result.reach.size(); ++k) {
       const Reach& reach = result.reach[k];
-      const std::string name = k < readings_.size() ? readings_[k] : "reading " + std::to_string(k + 1);
+      const std::string name = k < start_.readings.size() ? start_.readings[k] : "reading " + std::to_string(k + 1);
       result.reason +=
           " Simulated values of " + name + ": " + format("%.3g", reach.lowest) + " to " + format("%.3g", reach.highest);
       if (reach.all_above || reach.all_below) {
@@ -98,7 +98,7 @@ void Strategy::explain(const std::optional<OutOfReach>& out_of_reach) {
       result.reason += ".";
     }
     if (result.status == CalibrationStatus::out_of_reach && out_of_reach)
-      result.reason += " " + describe(*out_of_reach, readings_, parameters_);
+      result.reason += " " + describe(*out_of_reach, start_.readings, start_.parameters);
     if (std::ranges::any_of(state_.history.singles(), &Response::censored))
       result.reason += " Runs that were stopped early enter as bounds.";
   }
