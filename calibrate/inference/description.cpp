@@ -22,24 +22,24 @@ std::string exchange_of(const Inference& inference, const Combination& combinati
     const double part = combination.direction[j] / combination.direction[combination.lead];
     if (j == combination.lead || std::abs(part) < worth_a_word) continue;
     const double ratio = part * lead.deviation_before / other.deviation_before;
-    const auto change = [](const ParameterInterval& parameter, double coordinates) {
-      if (parameter.scale == Scale::linear)
-        return format("%+.2g", coordinates * (parameter.bound_upper - parameter.bound_lower));
-      return format("%+.0f %%",
-                    100 * std::expm1(coordinates * std::log(parameter.bound_upper / parameter.bound_lower)));
+    const auto change = [](const Parameter& parameter, double coordinates) {
+      if (parameter.scale == Scale::linear) return format("%+.2g", coordinates * (parameter.upper - parameter.lower));
+      return format("%+.0f %%", 100 * std::expm1(coordinates * std::log(parameter.upper / parameter.lower)));
     };
     constexpr double step = 0.1;  // of the range
-    rates.push_back(other.name + " " + change(other, step) + " acts like " + lead.name + " " +
-                    change(lead, ratio * step));
+    rates.push_back(other.parameter.name + " " + change(other.parameter, step) + " acts like " + lead.parameter.name +
+                    " " + change(lead.parameter, ratio * step));
   }
   if (rates.empty()) return "";
   return "  Other parameters can compensate for it: " + enumerated(rates) + ".\n";
 }
 
 /// "13.2 to 526", marked at an end that is the study's bound.
-std::string ends_in_words(double lower, bool lower_known, double upper, bool upper_known) {
-  const auto end = [](double value, bool known) { return plain(value, 4) + (known ? "" : " (the study's bound)"); };
-  return end(lower, lower_known) + " to " + end(upper, upper_known);
+std::string ends_in_words(const IntervalEnd& lower, const IntervalEnd& upper) {
+  const auto words = [](const IntervalEnd& end) {
+    return plain(end.at, 4) + (end.known ? "" : " (the study's bound)");
+  };
+  return words(lower) + " to " + words(upper);
 }
 
 /// For one free parameter: there is only one interval.
@@ -50,12 +50,12 @@ std::string determined_alone(const Inference& inference) {
     out += format(
         "  %s jumps with %s: predicted from the other simulations, a simulation is off by more than three standard "
         "deviations. There is no prediction between neighbouring simulations.\n",
-        enumerated(inference.fitted).c_str(), one.name.c_str());
-  if (one.prior || one.not_identified()) return out;
+        enumerated(inference.fitted).c_str(), one.parameter.name.c_str());
+  if (one.parameter.prior || one.not_identified()) return out;
   const std::vector<std::string>& led = inference.combinations.front().readings;
   return out + format("  %s %s %s to %s (95 %%).\n", enumerated(led.empty() ? inference.fitted : led).c_str(),
-                      (led.empty() ? inference.fitted : led).size() > 1 ? "fix" : "fixes", one.name.c_str(),
-                      ends_in_words(one.lower, one.lower_known, one.upper, one.upper_known).c_str());
+                      (led.empty() ? inference.fitted : led).size() > 1 ? "fix" : "fixes", one.parameter.name.c_str(),
+                      ends_in_words(one.lower, one.upper).c_str());
 }
 
 std::string determined(const Inference& inference) {
@@ -72,16 +72,15 @@ std::string determined(const Inference& inference) {
     const ParameterInterval& lead = inference.intervals[combination.lead];
     if (!combination.determined() || (said.empty() && !lead.held_exists())) continue;
     if (said.empty()) {
-      out +=
-          format("  %s %s %s to %s (95 %%), the other parameters fixed at the recommended values.\n",
-                 enumerated(combination.readings).c_str(), combination.readings.size() > 1 ? "fix" : "fixes",
-                 lead.name.c_str(),
-                 ends_in_words(lead.held_lower, lead.held_lower_known, lead.held_upper, lead.held_upper_known).c_str());
+      out += format("  %s %s %s to %s (95 %%), the other parameters fixed at the recommended values.\n",
+                    enumerated(combination.readings).c_str(), combination.readings.size() > 1 ? "fix" : "fixes",
+                    lead.parameter.name.c_str(), ends_in_words(lead.held_lower, lead.held_upper).c_str());
       out += exchange_of(inference, combination);
     } else {
-      const std::string width = lead.scale == Scale::linear ? format("+-%.2g", combination.lead_width)
-                                                            : format("+-%.0f %%", 100 * combination.lead_width);
-      out += format("  A further combination, mainly of %s, is determined to %s by %s.\n", lead.name.c_str(),
+      const std::string width = lead.parameter.scale == Scale::linear
+                                    ? format("+-%.2g", combination.lead_width)
+                                    : format("+-%.0f %%", 100 * combination.lead_width);
+      out += format("  A further combination, mainly of %s, is determined to %s by %s.\n", lead.parameter.name.c_str(),
                     width.c_str(), enumerated(combination.readings).c_str());
     }
     said.push_back(combination.lead);
@@ -93,14 +92,15 @@ std::string determined(const Inference& inference) {
 
 /// Contributions of prior and readings to a parameter.
 std::string prior_line(const ParameterInterval& one) {
-  const std::string known = format("  %s had the prior %s +- %s; ", one.name.c_str(), plain(one.prior->value).c_str(),
-                                   plain(one.prior->standard_deviation).c_str());
+  const std::string known =
+      format("  %s had the prior %s +- %s; ", one.parameter.name.c_str(), plain(one.parameter.prior->value).c_str(),
+             plain(one.parameter.prior->standard_deviation).c_str());
   if (one.uncertainty > worth_measuring)
     return known + format("the readings do not narrow it: the interval %s (95 %%) comes from the prior.\n",
-                          ends_in_words(one.lower, one.lower_known, one.upper, one.upper_known).c_str());
+                          ends_in_words(one.lower, one.upper).c_str());
   return known +
          format("with the readings the interval is %s (95 %%), which leaves %.0f %% of the prior's uncertainty.\n",
-                ends_in_words(one.lower, one.lower_known, one.upper, one.upper_known).c_str(), 100 * one.uncertainty);
+                ends_in_words(one.lower, one.upper).c_str(), 100 * one.uncertainty);
 }
 
 /// Why there is no interval of a parameter.
@@ -115,24 +115,24 @@ std::string intervals(const Inference& inference) {
   std::string out;
   std::vector<std::string> any;
   for (const ParameterInterval& one : inference.intervals) {
-    if (one.prior) {
+    if (one.parameter.prior) {
       out += prior_line(one);
     } else if (one.not_identified()) {
       if (inference.intervals.size() > 1 && one.any_value_fits())
-        any.push_back(one.name);
+        any.push_back(one.parameter.name);
       else
-        out += "  " + one.name + " is not identifiable: " + not_identified_because(inference, one) + ".\n";
+        out += "  " + one.parameter.name + " is not identifiable: " + not_identified_because(inference, one) + ".\n";
     } else if (inference.intervals.size() == 1) {
       continue;
     } else if (one.interval_exists()) {
-      out += format("  %s lies between %s and %s (95 %%), all parameters free.\n", one.name.c_str(),
-                    plain(one.lower).c_str(), plain(one.upper).c_str());
+      out += format("  %s lies between %s and %s (95 %%), all parameters free.\n", one.parameter.name.c_str(),
+                    plain(one.lower.at).c_str(), plain(one.upper.at).c_str());
     } else {
       out += format(
           "  %s lies %s %s (95 %%), all parameters free; the study's bound "
           "sets the other end.\n",
-          one.name.c_str(), one.lower_known ? "above" : "below",
-          plain(one.lower_known ? one.lower : one.upper).c_str());
+          one.parameter.name.c_str(), one.lower.known ? "above" : "below",
+          plain((one.lower.known ? one.lower : one.upper).at).c_str());
     }
   }
   if (any.size() == 1)
@@ -166,7 +166,7 @@ std::string family(const Inference& inference) {
   std::string out = "Materials expected to fit these readings as well as the first, the recommended one" +
                     (inference.recommended_because.empty() ? "" : ", " + inference.recommended_because) + "\n";
   std::size_t widest = 0;
-  for (const ParameterInterval& one : inference.intervals) widest = std::max(widest, one.name.size());
+  for (const ParameterInterval& one : inference.intervals) widest = std::max(widest, one.parameter.name.size());
   for (const std::string& reading : inference.fitted) widest = std::max(widest, reading.size());
   const auto row = [&](const std::string& name, const auto& cell) {
     out += format("  %-*s", static_cast<int>(widest), name.c_str());
@@ -174,7 +174,8 @@ std::string family(const Inference& inference) {
     out += "\n";
   };
   for (std::size_t k = 0; k < inference.intervals.size(); ++k)
-    row(inference.intervals[k].name, [&](const EquivalentMaterial& member) { return plain(member.values[k], 4); });
+    row(inference.intervals[k].parameter.name,
+        [&](const EquivalentMaterial& member) { return plain(member.values[k], 4); });
   for (std::size_t k = 0; k < inference.fitted.size(); ++k)
     row(inference.fitted[k], [&](const EquivalentMaterial& member) { return plain(member.readings[k], 4); });
   row("error [sd]", [](const EquivalentMaterial& member) { return plain(member.distance, 2); });
@@ -225,14 +226,16 @@ CardInference card_inference(const Inference& inference) {
   out.level = 0.95;
   for (std::size_t i = 0; i < inference.intervals.size(); ++i) {
     const ParameterInterval& one = inference.intervals[i];
-    if (one.not_identified() && !one.prior)
-      out.not_identified.push_back({one.name, not_identified_because(inference, one)});
+    const std::string& name = one.parameter.name;
+    if (one.not_identified() && !one.parameter.prior)
+      out.not_identified.push_back({name, not_identified_because(inference, one)});
     else  // an end at the study's bound keeps its exact value
-      out.intervals.push_back({one.name, one.lower_known ? rounded(one.lower, 4) : one.bound_lower,
-                               one.upper_known ? rounded(one.upper, 4) : one.bound_upper});
+      out.intervals.push_back({name, one.lower.known ? rounded(one.lower.at, 4) : one.parameter.lower,
+                               one.upper.known ? rounded(one.upper.at, 4) : one.parameter.upper});
     for (std::size_t j = 0; j < i; ++j)
       if (std::abs(inference.correlation[i][j]) >= told)
-        out.correlations.push_back({inference.intervals[j].name, one.name, rounded(inference.correlation[i][j], 2)});
+        out.correlations.push_back(
+            {inference.intervals[j].parameter.name, name, rounded(inference.correlation[i][j], 2)});
   }
   for (ConditionEffect& condition : out.conditions = inference.conditions)
     for (ConditionEffect::Reading& reading : condition.readings) {

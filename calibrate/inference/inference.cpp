@@ -71,7 +71,7 @@ std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std:
     std::vector<UnitPoint> chosen = fitting(model, candidates, recommended);
     std::erase_if(chosen, [&](const UnitPoint& point) {
       for (std::size_t j = 0; j < intervals.size(); ++j)
-        if (value(point, j) < intervals[j].lower || value(point, j) > intervals[j].upper) return true;
+        if (value(point, j) < intervals[j].lower.at || value(point, j) > intervals[j].upper.at) return true;
       return false;
     });
     return chosen;

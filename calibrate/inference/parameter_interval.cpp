@@ -36,8 +36,7 @@ double density_at(const std::vector<double>& sorted, bool lower_end) {
 }
 
 struct Ends {
-  double lower = 0, upper = 1;
-  bool lower_known = false, upper_known = false;
+  IntervalEnd lower{0, false}, upper{1, false};
 };
 
 /// Central 95 % of the sample: 2.5 % beyond each end, also if the other end is the study's bound. Only ends that look
@@ -46,35 +45,21 @@ struct Ends {
 Ends ends_of(std::vector<double> coordinates) {
   std::ranges::sort(coordinates);
   Ends ends;
-  ends.lower_known = density_at(coordinates, true) < thin;
-  ends.upper_known = density_at(coordinates, false) < thin;
-  if (ends.lower_known) ends.lower = quantile(coordinates, tail);
-  if (ends.upper_known) ends.upper = quantile(coordinates, 1 - tail);
+  if (density_at(coordinates, true) < thin) ends.lower = {quantile(coordinates, tail), true};
+  if (density_at(coordinates, false) < thin) ends.upper = {quantile(coordinates, 1 - tail), true};
   return ends;
 }
 
 /// Extends ends to contain another interval, together with its `known` flags.
 void contain(Ends& ends, const Ends& others) {
-  if (others.lower < ends.lower) {
-    ends.lower = others.lower;
-    ends.lower_known = others.lower_known;
-  }
-  if (others.upper > ends.upper) {
-    ends.upper = others.upper;
-    ends.upper_known = others.upper_known;
-  }
+  if (others.lower.at < ends.lower.at) ends.lower = others.lower;
+  if (others.upper.at > ends.upper.at) ends.upper = others.upper;
 }
 
 /// Clips ends to another interval.
 void clip(Ends& ends, const Ends& others) {
-  if (others.lower > ends.lower) {
-    ends.lower = others.lower;
-    ends.lower_known = others.lower_known;
-  }
-  if (others.upper < ends.upper) {
-    ends.upper = others.upper;
-    ends.upper_known = others.upper_known;
-  }
+  if (others.lower.at > ends.lower.at) ends.lower = others.lower;
+  if (others.upper.at < ends.upper.at) ends.upper = others.upper;
 }
 
 /// Cell ends for integrating a posterior: uniform, plus the simulated points if it may jump there.
@@ -136,11 +121,7 @@ std::vector<double> sample_along(const ResponseModel& model, UnitPoint point, Ei
 
 bool ParameterInterval::any_value_fits() const {
   constexpr double near = 0.1;  // of the range
-  Parameter within;
-  within.scale = scale;
-  within.lower = bound_lower;
-  within.upper = bound_upper;
-  return unit_of(within, fitting_lower) < near && unit_of(within, fitting_upper) > 1 - near;
+  return unit_of(parameter, fitting_lower) < near && unit_of(parameter, fitting_upper) > 1 - near;
 }
 
 ParameterInterval interval_of(const ResponseModel& model, const std::vector<UnitPoint>& sample, const Moments& moments,
@@ -149,27 +130,21 @@ ParameterInterval interval_of(const ResponseModel& model, const std::vector<Unit
   std::vector<double> coordinates;
   for (const UnitPoint& member : sample) coordinates.push_back(member[coordinate]);
   const double own = recommended[coordinate];
+  const Ends around{{own, own > 0}, {own, own < 1}};
   Ends held = ends_of(sample_along(model, recommended, coordinate, static_cast<int>(sample.size())));
   Ends ends = recommended.size() == 1 ? held : ends_of(std::move(coordinates));
-  contain(ends, {own, own, own > 0, own < 1});
+  contain(ends, around);
   clip(held, ends);
-  contain(held, {own, own, own > 0, own < 1});
+  contain(held, around);
+  const auto in_unit = [&](const IntervalEnd& end) { return IntervalEnd{value_between(parameter, end.at), end.known}; };
   ParameterInterval one;
-  one.name = parameter.name;
-  one.scale = parameter.scale;
-  one.bound_lower = parameter.lower;
-  one.bound_upper = parameter.upper;
+  one.parameter = parameter;
   one.recommended = value_between(parameter, own);
-  one.lower = value_between(parameter, ends.lower);
-  one.upper = value_between(parameter, ends.upper);
-  one.lower_known = ends.lower_known;
-  one.upper_known = ends.upper_known;
-  one.held_lower = value_between(parameter, held.lower);
-  one.held_upper = value_between(parameter, held.upper);
-  one.held_lower_known = held.lower_known;
-  one.held_upper_known = held.upper_known;
+  one.lower = in_unit(ends.lower);
+  one.upper = in_unit(ends.upper);
+  one.held_lower = in_unit(held.lower);
+  one.held_upper = in_unit(held.upper);
   one.fitting_lower = one.fitting_upper = one.recommended;
-  one.prior = parameter.prior;
   one.deviation_before = deviation_before(parameter);
   one.uncertainty = std::sqrt(moments.covariance(coordinate, coordinate)) / one.deviation_before;
   return one;

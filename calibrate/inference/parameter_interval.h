@@ -9,26 +9,27 @@
 
 namespace pastefit {
 
+/// End of an interval.
+struct IntervalEnd {
+  double at = 0;
+  bool known = false;  ///< the data set this end, not the study's bound
+};
+
 /// Interval estimate of one free parameter, in its own unit.
 struct ParameterInterval {
-  std::string name;
-  Scale scale = Scale::linear;
-  double bound_lower = 0, bound_upper = 0;  ///< of the study
+  Parameter parameter;  ///< its bounds and prior are included in all of these
   double recommended = 0;
-  double lower = 0, upper = 0;                    ///< 95 %, all parameters free; the study's bound if the data set none
-  bool lower_known = false, upper_known = false;  ///< the data set this end, not the study's bound
-  double held_lower = 0, held_upper = 0;          ///< 95 %, others held at the recommended values; within lower..upper
-  bool held_lower_known = false, held_upper_known = false;  ///< as above
-  double fitting_lower = 0, fitting_upper = 0;              ///< of materials expected to fit, others free
-  std::optional<Prior> prior;                               ///< of the study; included in all of these
-  double deviation_before = 0;  ///< prior standard deviation of its coordinate, from bounds and prior
-  double uncertainty = 1;       ///< posterior over prior standard deviation
+  IntervalEnd lower, upper;                     ///< 95 %, all parameters free; the study's bound if the data set none
+  IntervalEnd held_lower, held_upper;           ///< 95 %, others held at the recommended values; within the above
+  double fitting_lower = 0, fitting_upper = 0;  ///< of materials expected to fit, others free
+  double deviation_before = 0;                  ///< prior standard deviation of its coordinate, from bounds and prior
+  double uncertainty = 1;                       ///< posterior over prior standard deviation
 
-  bool interval_exists() const { return lower_known && upper_known; }
-  bool held_exists() const { return held_lower_known || held_upper_known; }
+  bool interval_exists() const { return lower.known && upper.known; }
+  bool held_exists() const { return held_lower.known || held_upper.known; }
   /// True if materials expected to fit lie near both bounds.
   bool any_value_fits() const;
-  bool not_identified() const { return !lower_known && !upper_known; }
+  bool not_identified() const { return !lower.known && !upper.known; }
 };
 
 /// Prior standard deviation of a coordinate: uniform between the bounds, or of the prior truncated to them.
@@ -63,7 +64,7 @@ std::vector<Combination> combinations_of(const ResponseModel& model, const std::
                                          const UnitPoint& at);
 
 /// Widens a combination to the sample's standard deviation along it, because slopes at one point underestimate it for a
-/// curved posterior. If there is only one parameter, the sample's standard deviation replaces that of the combination.
+/// curved posterior. The sample's replaces it if there is one parameter only.
 void heed_sample(Combination& combination, const TrainingData& evidence, const Moments& moments);
 
 }  // namespace pastefit

@@ -13,14 +13,14 @@ using nlohmann::ordered_json;
 namespace {
 
 ordered_json interval_json(const ParameterInterval& interval) {
-  return {{"parameter", interval.name},
+  return {{"parameter", interval.parameter.name},
           {"recommended", interval.recommended},
-          {"lower", interval.lower},
-          {"upper", interval.upper},
-          {"lower_known", interval.lower_known},
-          {"upper_known", interval.upper_known},
-          {"bound_lower", interval.bound_lower},
-          {"bound_upper", interval.bound_upper},
+          {"lower", interval.lower.at},
+          {"upper", interval.upper.at},
+          {"lower_known", interval.lower.known},
+          {"upper_known", interval.upper.known},
+          {"bound_lower", interval.parameter.lower},
+          {"bound_upper", interval.parameter.upper},
           {"uncertainty", interval.uncertainty}};
 }
 

@@ -200,15 +200,16 @@ ordered_json page_inference(const Inference& inference) {
   for (std::size_t i = 0; i < inference.fitted.size(); ++i)
     out["noise"][inference.fitted[i]] = rounded(inference.noise[i]);
   for (const ParameterInterval& one : inference.intervals)
-    out["intervals"].push_back({{"name", one.name},
-                                {"lower", rounded(one.lower)},
-                                {"upper", rounded(one.upper)},
-                                {"lower_known", one.lower_known},
-                                {"upper_known", one.upper_known},
-                                {"held", {rounded(one.held_lower), rounded(one.held_upper)}}});
+    out["intervals"].push_back({{"name", one.parameter.name},
+                                {"lower", rounded(one.lower.at)},
+                                {"upper", rounded(one.upper.at)},
+                                {"lower_known", one.lower.known},
+                                {"upper_known", one.upper.known},
+                                {"held", {rounded(one.held_lower.at), rounded(one.held_upper.at)}}});
   for (const EquivalentMaterial& one : inference.family) {
     auto values = ordered_json::object(), readings = ordered_json::object();
-    for (std::size_t i = 0; i < one.values.size(); ++i) values[inference.intervals[i].name] = rounded(one.values[i]);
+    for (std::size_t i = 0; i < one.values.size(); ++i)
+      values[inference.intervals[i].parameter.name] = rounded(one.values[i]);
     for (std::size_t i = 0; i < one.readings.size(); ++i) readings[inference.fitted[i]] = rounded(one.readings[i]);
     out["family"].push_back({{"values", std::move(values)},
                              {"readings", std::move(readings)},

@@ -125,19 +125,20 @@ TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_f
   }
   for (std::size_t j = 0; j < inference.intervals.size(); ++j) {
     const ParameterInterval& one = inference.intervals[j];
-    result.parameters.push_back(
-        {one.name, twin.values[j], one.recommended, one.lower, one.upper, one.lower_known, one.upper_known});
+    result.parameters.push_back({one.parameter.name, twin.values[j], one.recommended, one.lower.at, one.upper.at,
+                                 one.lower.known, one.upper.known});
   }
   for (const Combination& combination : inference.combinations) result.determined += combination.determined() ? 1 : 0;
   if (result.determined == 0) return result;
   const std::size_t lead = inference.combinations.front().lead;
   const ParameterInterval& interval = inference.intervals[lead];
   const double truth = true_lead_of(twin, store.value(), calibration.best.point, lead);
-  result.lead = interval.name;
+  result.lead = interval.parameter.name;
   result.lead_error =
-      std::abs(truth - interval.recommended) /
-      (interval.scale == Scale::logarithmic ? interval.recommended : interval.bound_upper - interval.bound_lower);
-  result.lead_held = truth >= interval.held_lower && truth <= interval.held_upper;
+      std::abs(truth - interval.recommended) / (interval.parameter.scale == Scale::logarithmic
+                                                    ? interval.recommended
+                                                    : interval.parameter.upper - interval.parameter.lower);
+  result.lead_held = truth >= interval.held_lower.at && truth <= interval.held_upper.at;
   return result;
 }
 

@@ -117,8 +117,8 @@ struct Tally {
   void add(const ParameterInterval& one, double truth) {
     if (one.not_identified()) return;
     ++told;
-    held += one.lower <= truth && truth <= one.upper ? 1 : 0;
-    width += one.upper - one.lower;
+    held += one.lower.at <= truth && truth <= one.upper.at ? 1 : 0;
+    width += one.upper.at - one.lower.at;
   }
 };
 

@@ -86,8 +86,8 @@ TEST_CASE("a flat likelihood leaves the bounds as they are") {
       infer(evidence_for({{"step1.height_mm", [](const UnitPoint&) { return 50.0; }, 50}}), middle);
   for (const ParameterInterval& one : inference.intervals) {
     CHECK(one.not_identified());
-    CHECK(one.lower == 0);
-    CHECK(one.upper == 1);
+    CHECK(one.lower.at == 0);
+    CHECK(one.upper.at == 1);
     CHECK(one.uncertainty == Approx(1).margin(0.06));
   }
   for (const Combination& one : inference.combinations) CHECK_FALSE(one.determined());
@@ -97,8 +97,8 @@ TEST_CASE("the interval of a parameter that is seen alone is that of the closed 
   const Inference inference = infer(evidence_for({first_alone}), middle);
   const ParameterInterval& seen = inference.intervals[0];
   REQUIRE(seen.interval_exists());
-  CHECK(seen.lower == Approx(0.5 - 1.96 * 0.05).margin(0.012));
-  CHECK(seen.upper == Approx(0.5 + 1.96 * 0.05).margin(0.012));
+  CHECK(seen.lower.at == Approx(0.5 - 1.96 * 0.05).margin(0.012));
+  CHECK(seen.upper.at == Approx(0.5 + 1.96 * 0.05).margin(0.012));
   CHECK(inference.intervals[1].not_identified());
   REQUIRE(inference.combinations.size() == 2);
   CHECK(inference.combinations[0].determined());
@@ -131,8 +131,8 @@ TEST_CASE("a prior and a reading of the same parameter are weighed by their vari
   evidence.parameters[0].prior = Prior{0.6, 0.05};
   const Inference inference = infer(evidence, middle);
   const ParameterInterval& one = inference.intervals[0];
-  CHECK(one.lower == Approx(0.55 - 1.96 * 0.05 / std::sqrt(2.0)).margin(0.012));
-  CHECK(one.upper == Approx(0.55 + 1.96 * 0.05 / std::sqrt(2.0)).margin(0.012));
+  CHECK(one.lower.at == Approx(0.55 - 1.96 * 0.05 / std::sqrt(2.0)).margin(0.012));
+  CHECK(one.upper.at == Approx(0.55 + 1.96 * 0.05 / std::sqrt(2.0)).margin(0.012));
   CHECK(one.deviation_before == Approx(0.05).epsilon(0.01));
   CHECK(one.uncertainty == Approx(1 / std::sqrt(2.0)).margin(0.06));
   CHECK_THAT(describe(inference), Catch::Contains("first had the prior 0.6 +- 0.05; with the readings"));
@@ -143,8 +143,8 @@ TEST_CASE("a prior tells apart what the reading alone cannot, and what came from
   evidence.parameters[1].prior = Prior{0.3, 0.03};
   const Inference inference = infer(evidence, Eigen::Vector2d(0.7, 0.3));
   CHECK(inference.intervals[0].interval_exists());
-  CHECK(inference.intervals[0].lower == Approx(0.7 - 1.96 * std::hypot(0.05, 0.03)).margin(0.02));
-  CHECK(inference.intervals[0].upper == Approx(0.7 + 1.96 * std::hypot(0.05, 0.03)).margin(0.02));
+  CHECK(inference.intervals[0].lower.at == Approx(0.7 - 1.96 * std::hypot(0.05, 0.03)).margin(0.02));
+  CHECK(inference.intervals[0].upper.at == Approx(0.7 + 1.96 * std::hypot(0.05, 0.03)).margin(0.02));
   CHECK(inference.intervals[1].uncertainty > 0.9);
   CHECK_THAT(describe(inference), Catch::Contains("second had the prior 0.3 +- 0.03; the readings do not narrow it"));
   for (const EquivalentMaterial& member : inference.family) CHECK(member.values[1] == Approx(0.3).margin(0.12));
@@ -154,7 +154,7 @@ TEST_CASE("two parameters that only their sum shows are each wide, narrow if the
   const Inference inference = infer(evidence_for({sum_of_both}), middle);
   for (const ParameterInterval& one : inference.intervals) {
     CHECK(one.not_identified());
-    CHECK(one.held_upper - one.held_lower == Approx(2 * 1.96 * 0.05).margin(0.03));
+    CHECK(one.held_upper.at - one.held_lower.at == Approx(2 * 1.96 * 0.05).margin(0.03));
   }
   CHECK(inference.correlation[0][1] < -0.9);
   const Combination& sum = inference.combinations[0];
@@ -214,7 +214,7 @@ TEST_CASE("what no simulation has looked at is not ruled out by readings that ar
                                              40, 0.4);
   const Inference inference = infer(evidence, UnitPoint{{0.5, 0.35}});
   CHECK(inference.intervals[0].interval_exists());
-  CHECK_FALSE(inference.intervals[1].upper_known);
+  CHECK_FALSE(inference.intervals[1].upper.known);
 }
 
 TEST_CASE("the words name what is fixed, what is not, and what to measure") {
@@ -253,7 +253,7 @@ TEST_CASE("a simulation that ended early says that it read less, not that it rea
   }
   TrainingData equal = cut;
   equal.readings[0].is_bound.clear();
-  const auto lower = [](const TrainingData& evidence) { return infer(evidence, middle).intervals[0].lower; };
+  const auto lower = [](const TrainingData& evidence) { return infer(evidence, middle).intervals[0].lower.at; };
   const double known = lower(whole);
   CHECK(lower(cut) == Approx(known).margin(0.02));
   CHECK(std::abs(lower(cut) - known) < std::abs(lower(equal) - known));
@@ -287,7 +287,7 @@ TEST_CASE("that a laboratory reports its heaps tells against materials of which 
   const auto range = [&](int heaps) {
     evidence.accepted_heaps = heaps;
     const Inference inference = infer(evidence, middle);
-    return std::pair{inference.intervals[1].lower, inference.intervals[1].upper};
+    return std::pair{inference.intervals[1].lower.at, inference.intervals[1].upper.at};
   };
   CHECK(range(0).second > 0.95);
   CHECK(range(3).second < 0.85);
@@ -333,13 +333,13 @@ TEST_CASE("one free parameter has one interval") {
     const UnitPoint at = UnitPoint::Constant(1, measured / 100);
     const Inference inference = infer(evidence_along(halved, line, measured, 5), at);
     const ParameterInterval& one = inference.intervals[0];
-    CHECK(one.lower == one.held_lower);
-    CHECK(one.upper == one.held_upper);
-    CHECK(one.lower_known == (measured > 10));
+    CHECK(one.lower.at == one.held_lower.at);
+    CHECK(one.upper.at == one.held_upper.at);
+    CHECK(one.lower.known == (measured > 10));
     const std::string words = describe(inference);
     CHECK(words.find("held") == std::string::npos);
     CHECK(words.find("all parameters free") == std::string::npos);
-    CHECK((words.find("(the study's bound)") != std::string::npos) == !one.lower_known);
+    CHECK((words.find("(the study's bound)") != std::string::npos) == !one.lower.known);
   }
 }
 
@@ -349,11 +349,11 @@ TEST_CASE("intervals with all parameters free contain those with the others held
       const Inference inference = infer(evidence_for({law, second_alone}), UnitPoint{{0.5 + off, 0.5 - off}});
       for (std::size_t j = 0; j < inference.intervals.size(); ++j) {
         const ParameterInterval& one = inference.intervals[j];
-        CHECK(one.lower <= one.held_lower);
-        CHECK(one.upper >= one.held_upper);
+        CHECK(one.lower.at <= one.held_lower.at);
+        CHECK(one.upper.at >= one.held_upper.at);
         for (const EquivalentMaterial& member : inference.family) {
-          CHECK(member.values[j] >= one.lower);
-          CHECK(member.values[j] <= one.upper);
+          CHECK(member.values[j] >= one.lower.at);
+          CHECK(member.values[j] <= one.upper.at);
         }
       }
     }
@@ -362,8 +362,8 @@ TEST_CASE("intervals with all parameters free contain those with the others held
 TEST_CASE("an interval ends at the simulations on either side of a jump") {
   const Inference inference = infer(evidence_along(halved, stands_or_flows, 150, 10), UnitPoint::Constant(1, 0.625));
   CHECK(inference.jumps);
-  CHECK(inference.intervals[0].lower >= 0.6);
-  CHECK(inference.intervals[0].upper <= 0.65);
+  CHECK(inference.intervals[0].lower.at >= 0.6);
+  CHECK(inference.intervals[0].upper.at <= 0.65);
 }
 
 TEST_CASE("nothing is predicted across a jump: no material that nobody simulated, no gain of a measurement") {

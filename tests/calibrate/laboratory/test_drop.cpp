@@ -67,12 +67,12 @@ TEST_CASE("restitution and friction of the drop twin are found, confirmed, and l
   CHECK(card.tests[0].lab.twin);
   CHECK(card.material.grain_density_kg_m3 == 2500);
   for (const ParameterInterval& one : result.inference.value().intervals) {
-    const double truth = one.name == "restitution" ? 0.9 : 0.08;
-    INFO(one.name << " between " << one.lower << " and " << one.upper);
+    const double truth = one.parameter.name == "restitution" ? 0.9 : 0.08;
+    INFO(one.parameter.name << " between " << one.lower.at << " and " << one.upper.at);
     CHECK(one.interval_exists());
-    CHECK(one.lower < truth);
-    CHECK(one.upper > truth);
-    CHECK(one.upper - one.lower < 0.1);
+    CHECK(one.lower.at < truth);
+    CHECK(one.upper.at > truth);
+    CHECK(one.upper.at - one.lower.at < 0.1);
   }
 }
 
