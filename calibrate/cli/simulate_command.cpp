@@ -19,8 +19,11 @@
 #include "calibrate/cli/terminal.h"
 #include "calibrate/cli/understood.h"
 #include "calibrate/evaluate/cost.h"
+#include "calibrate/store/checkpoint.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/store/output_folder.h"
+#include "core/step/run_checkpoint.h"
+#include "core/step/state.h"
 
 namespace pastefit {
 
@@ -171,27 +174,55 @@ class SingleSimulation {
     run_.watch_interval_s = options_.vtk_interval_s.value_or(0.1);
     run_.watch = [this](const Snapshot& snapshot) { return watch(snapshot); };
     run_.pulse = [this, shown = shown_run(&stop_).pulse](const Snapshot& snapshot) {
-      return shown(snapshot) && (!saved_ || saved_->unwritten().empty());
+      return shown(snapshot) && unsaved_.empty();
     };
-    const auto start = std::chrono::steady_clock::now();
-    const Outcome outcome = saved_ ? value_or_throw(saved_->simulate(scene_, run_)) : simulate(scene_, run_);
+    const Outcome outcome = simulated();
     run_.pulse = {};  // removes its line
-    const double wall_s =
-        saved_ ? saved_->wall_s() : std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double wall_s = wall_so_far_s();
     refuse(unwritten_, kFailed);
-    if (saved_) refuse(saved_->unwritten(), kFailed);
+    refuse(unsaved_, kFailed);
     return close(outcome, wall_s);
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::minutes kBetweenSaves{2};
+
   void open_checkpoint() {
     if (options_.checkpoint.empty()) return;
-    Checkpoint file(options_.checkpoint, *test_, run_);
-    auto state = value_or_throw(file.read());
-    saved_.emplace(std::move(file), std::move(state), stop_);
-    if (saved_->goes_on())
-      note("pastefit: continues from %s, after %.0f s\n", options_.checkpoint.c_str(), saved_->wall_s());
-    run_.checkpoint = value_or_throw(saved_->checkpoint());
+    checkpoint_.emplace(options_.checkpoint, *test_, run_);
+    RunState found = value_or_throw(checkpoint_->read());
+    wall_before_s_ = found.wall_s;
+    if (!found.bytes.empty())
+      note("pastefit: continues from %s, after %.0f s\n", options_.checkpoint.c_str(), wall_so_far_s());
+    try {
+      run_.checkpoint =
+          std::make_shared<RunCheckpoint>([this] { return stop_ || Clock::now() > next_save_; },
+                                          [this](const std::string& state) { save(state); }, std::move(found.bytes));
+    } catch (const BadState& bad) {
+      refuse(checkpoint_->no_state_of_this_run(bad.what()));
+    }
+  }
+
+  void save(const std::string& state) {
+    unsaved_ = checkpoint_->write({state, wall_so_far_s()});
+    next_save_ = Clock::now() + kBetweenSaves;
+  }
+
+  /// Sum over all sessions.
+  double wall_so_far_s() const { return wall_before_s_ + std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  /// Refused if the checkpoint has a valid checksum, but no state of this run: the file was made by hand.
+  Outcome simulated() const {
+    if (!checkpoint_) return simulate(scene_, run_);
+    std::string why = "it holds more than this run has";
+    try {
+      Outcome outcome = simulate(scene_, run_);
+      if (run_.checkpoint->is_told()) return outcome;
+    } catch (const BadState& bad) {
+      why = bad.what();
+    }
+    throw Refusal{checkpoint_->no_state_of_this_run(why), kBadInput};
   }
 
   void open_folder() {
@@ -213,7 +244,7 @@ class SingleSimulation {
 
   /// Prints and writes the results.
   int close(const Outcome& outcome, double wall_s) {
-    if (saved_ && outcome.failure && outcome.failure->reason == FailureReason::stopped) {
+    if (checkpoint_ && outcome.failure && outcome.failure->reason == FailureReason::stopped) {
       std::fprintf(stderr, "pastefit: stopped in %s at %.4g s; the same command continues from %s\n",
                    outcome.failure->phase.c_str(), outcome.failure->time_s, options_.checkpoint.c_str());
       return kFailed;
@@ -225,7 +256,7 @@ class SingleSimulation {
     else
       print_simulation(outcome, wall_s, test_ && !std::holds_alternative<DropTest>(*test_));
     if (folder_) write(outcome, text);
-    if (saved_) saved_->remove();
+    if (checkpoint_) checkpoint_->remove();
     if (test_)
       if (const auto remarks = remarks_on(*test_, {&outcome.readings, 1}); !remarks.empty())
         note("pastefit: %s\n", remarks.c_str());
@@ -254,11 +285,13 @@ class SingleSimulation {
   const Test* test_;  ///< null for an impact
   const std::atomic<bool>& stop_ = listen_for_stop();
   RunOptions run_;
-  std::optional<SavedRun> saved_;
+  std::optional<Checkpoint> checkpoint_;
+  double wall_before_s_ = 0;  ///< of earlier sessions
+  Clock::time_point start_ = Clock::now(), next_save_ = start_ + kBetweenSaves;
   std::optional<OutputFolder> folder_;
   std::optional<RunPictures> pictures_;
   std::map<std::string_view, Outline> outlines_;
-  Faults unwritten_;  ///< faults of pictures
+  Faults unwritten_, unsaved_;  ///< faults of pictures and of the checkpoint
 };
 
 int simulate_file(const SimulateOptions& options) {
