@@ -122,10 +122,20 @@ void Calibrator::tell(std::size_t number) {
     const Response response = response_of(asked);
     const bool good = !response.failed && !response.censored;
     if (good && (counts_.best_error < 0 || response.error < counts_.best_error)) counts_.best_error = response.error;
+    note_material(response.evaluations.front());
   }
   if (stage_ != Stage::search) return;
   const CandidateResult result{number, answers_.evaluation_of(asked.simulations, asked.evaluations)};
   search_.ingest({&result, 1});
+}
+
+void Calibrator::note_material(Evaluation evaluation) {
+  auto& evaluations = materials_[{evaluation.point.begin(), evaluation.point.end()}];
+  evaluations.push_back(std::move(evaluation));
+  Response material = answers_.scoring().response_of(evaluations);
+  if (material.failed || material.censored) return;
+  if (best_.point.size() == 0 || best_.point == material.point || material.error < best_.error)
+    best_ = std::move(material);
 }
 
 void Calibrator::stop(bool infers) {

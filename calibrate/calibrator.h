@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -56,6 +57,8 @@ class Calibrator {
   void stop(bool infers = false);
   bool finished() const { return stage_ == Stage::over; }
   const EvaluationCounts& counts() const { return counts_; }
+  /// Best material so far, on all packings of its fitted tests; no point if none.
+  const Response& best() const { return best_; }
   /// Requirement: it has finished.
   CalibrationResult result() const;
 
@@ -78,6 +81,7 @@ class Calibrator {
   std::vector<Simulation> unknown_simulations_of(std::size_t number);
   void enter(std::size_t number, std::size_t place, StoredEvaluation evaluation, int EvaluationCounts::*counter);
   void tell(std::size_t number);
+  void note_material(Evaluation evaluation);
   Response response_of(const Asked& asked) const;
 
   /// Begins the next stages, as far as the answers reach.
@@ -99,6 +103,8 @@ class Calibrator {
   std::deque<std::size_t> open_;      // after the search: not suggested yet
   std::vector<std::size_t> awaited_;  // after the search: by the present stage
   EvaluationCounts counts_;
+  std::map<std::vector<double>, std::vector<Evaluation>> materials_;  // by point: evaluations of the fitted tests
+  Response best_;
   bool stopped_ = false, infers_ = true;
   Calibration found_;    // by the search
   int points_left_ = 0;  // for the examination

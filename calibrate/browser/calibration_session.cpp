@@ -1,9 +1,7 @@
 #include "calibrate/browser/calibration_session.h"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "calibrate/base/atomic_file.h"
@@ -157,37 +155,15 @@ void CalibrationSession::take(const Simulation& simulation, const TaskAnswer& an
   evaluation.wall_s = evaluation.core_s = answer.wall_s;
   enter(evaluation, answer.outcome, cutoff_of(simulation));
   refuse(calibrator_->ingest(simulation, evaluation), kFailed);
-  note_material(simulation, evaluation);
-}
-
-/// Keeps the best material so far, for `progress`.
-void CalibrationSession::note_material(const Simulation& simulation, const StoredEvaluation& evaluation) {
-  if (simulation.study != study_ || study_->tests[simulation.test].hold_out) return;
-  auto& known = candidates_[simulation.candidate];
-  known.emplace_back(simulation, evaluation);
-  if (known.size() < static_cast<std::size_t>(answers_->scoring().simulations_each())) return;
-  std::ranges::sort(known, {}, [](const auto& one) { return one.first.test; });
-  std::vector<Simulation> simulations;
-  std::vector<StoredEvaluation> evaluations;
-  for (const auto& [one, its] : known) {
-    simulations.push_back(one);
-    evaluations.push_back(its);
-  }
-  candidates_.erase(simulation.candidate);
-  auto& of_material = materials_[{simulation.point.begin(), simulation.point.end()}];
-  of_material.push_back(answers_->evaluation_of(simulations, evaluations));
-  const Response response = answers_->scoring().response_of(of_material);
-  if (response.failed || response.censored) return;
-  const bool same = best_.known && best_.response.point == response.point;
-  if (!best_.known || same || response.error < best_.response.error) best_ = {response, true};
 }
 
 ordered_json CalibrationSession::progress() const {
   const EvaluationCounts& counts = calibrator_->counts();
+  const Response& best = calibrator_->best();
   ordered_json readings = ordered_json::array();
   const auto of_study = readings_of(*study_);
   for (std::size_t i = 0; i < of_study.size(); ++i) {
-    const double simulated = best_.known ? best_.response.readings[static_cast<Eigen::Index>(i)] : std::nan("");
+    const double simulated = best.point.size() > 0 ? best.readings[static_cast<Eigen::Index>(i)] : std::nan("");
     readings.push_back({{"name", of_study[i].name},
                         {"measured", of_study[i].measurement.value},
                         {"simulated", std::isfinite(simulated) ? ordered_json(simulated) : ordered_json()},
@@ -195,14 +171,13 @@ ordered_json CalibrationSession::progress() const {
   }
   ordered_json failures = ordered_json::object();
   for (const auto& [reason, number] : counts.failures) failures[std::string(name_of(reason))] = number;
-  const std::size_t packings = best_.known ? best_.response.packings.size() : 0;
   return {{"phase", phase_},
           {"simulations", counts.known()},
           {"budget", study_->search.budget_simulations},
           {"best_error", counts.best_error < 0 ? ordered_json() : ordered_json(counts.best_error)},
           {"readings", readings},
           {"why", note_},
-          {"sheared", {best_.known ? best_.response.rejected : 0, packings}},
+          {"sheared", {best.rejected, best.packings.size()}},
           {"failures", failures},
           {"finished", calibrator_->finished()}};
 }

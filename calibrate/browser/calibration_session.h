@@ -40,15 +40,9 @@ class CalibrationSession {
     Simulation simulation;
     std::string task;
   };
-  /// The best response so far: of one material on all its packings.
-  struct Best {
-    Response response;
-    bool known = false;
-  };
 
   bool is_known(const Simulation& simulation, const std::string& task);
   void take(const Simulation& simulation, const TaskAnswer& answer);
-  void note_material(const Simulation& simulation, const StoredEvaluation& evaluation);
 
   std::shared_ptr<const Study> study_;
   std::unique_ptr<Store> store_;
@@ -60,9 +54,6 @@ class CalibrationSession {
   std::map<std::size_t, Open> open_;           // suggested, by their "id"
   std::vector<std::size_t> given_back_;        // of them: interrupted
   std::size_t tasks_ = 0;
-  std::map<std::size_t, std::vector<std::pair<Simulation, StoredEvaluation>>> candidates_;  // as far as they are known
-  std::map<std::vector<double>, std::vector<Evaluation>> materials_;                        // by point
-  Best best_;
 };
 
 }  // namespace pastefit::browser
