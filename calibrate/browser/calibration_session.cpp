@@ -15,7 +15,6 @@
 #include "calibrate/report/summary.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/store/program.h"
-#include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit::browser {
@@ -81,20 +80,7 @@ CalibrationSession::CalibrationSession(const json& request)
 }
 
 ordered_json CalibrationSession::description() const {
-  ordered_json parameters = ordered_json::array(), readings = ordered_json::array();
-  for (const Parameter& one : answers_->parameters())
-    parameters.push_back({{"name", one.name}, {"lower", one.lower}, {"upper", one.upper}});
-  for (const StudyReading& one : readings_of(*study_))
-    readings.push_back({{"name", one.name},
-                        {"measured", one.measurement.value},
-                        {"standard_deviation", one.measurement.standard_deviation},
-                        {"tolerance", one.tolerance},
-                        {"weight", one.weight}});
-  return {{"title", study_->title},
-          {"parameters", parameters},
-          {"readings", readings},
-          {"budget", study_->search.budget_simulations},
-          {"screening", study_->search.screening}};
+  return {{"title", study_->title}, {"budget", study_->search.budget_simulations}};
 }
 
 ordered_json CalibrationSession::suggest(std::size_t count) {
@@ -169,8 +155,6 @@ ordered_json CalibrationSession::progress() const {
                         {"simulated", std::isfinite(simulated) ? ordered_json(simulated) : ordered_json()},
                         {"tolerance", of_study[i].tolerance}});
   }
-  ordered_json failures = ordered_json::object();
-  for (const auto& [reason, number] : counts.failures) failures[std::string(name_of(reason))] = number;
   return {{"phase", phase_},
           {"simulations", counts.known()},
           {"budget", study_->search.budget_simulations},
@@ -178,7 +162,6 @@ ordered_json CalibrationSession::progress() const {
           {"readings", readings},
           {"why", note_},
           {"sheared", {best.rejected, best.packings.size()}},
-          {"failures", failures},
           {"finished", calibrator_->finished()}};
 }
 

@@ -22,7 +22,7 @@ class CalibrationSession {
   /// records of an earlier session. Files are those of the working folder. Errors: throws `Refusal` of every fault.
   explicit CalibrationSession(const nlohmann::json& request);
 
-  /// {"title", "parameters", "readings", "budget", "screening"}
+  /// {"title", "budget"}
   nlohmann::ordered_json description() const;
   /// Tasks of at most so many candidates, [{"id", "task"}, ...].
   nlohmann::ordered_json suggest(std::size_t count);

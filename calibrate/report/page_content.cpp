@@ -78,7 +78,6 @@ ordered_json page_readings(const CardTest& test) {
       reading["weight"] = one.weight;
       reading["tolerance"] = one.tolerance;
     }
-    if (one.band) reading["band"] = *one.band;
     out.push_back(std::move(reading));
   }
   return out;
@@ -154,18 +153,11 @@ ordered_json run_shown(const CardTest& test, const TestView& view) {
 ordered_json page_test(const Findings& findings, std::size_t index) {
   const Card& card = *findings.card;
   const CardTest& test = card.tests[index];
-  ordered_json out{{"name", test.name},
-                   {"kind", kind_of(test.test)},
-                   {"hold_out", test.hold_out},
-                   {"source", test.lab.source},
-                   {"notes", test.lab.notes},
-                   {"licence", test.lab.licence},
-                   {"twin", test.lab.twin},
-                   {"lab_file", test.lab_file},
-                   {"lab_hash", test.lab_hash},
-                   {"conditions", conditions_in_words(test.test)},
-                   {"grain_radius_mm", 1e3 * specimen_of(test.test).grains.radius_m}};
-  if (test.within_noise) out["within_noise"] = *test.within_noise;
+  ordered_json out{{"name", test.name},         {"kind", kind_of(test.test)},
+                   {"hold_out", test.hold_out}, {"source", test.lab.source},
+                   {"notes", test.lab.notes},   {"licence", test.lab.licence},
+                   {"twin", test.lab.twin},     {"lab_file", test.lab_file},
+                   {"lab_hash", test.lab_hash}, {"conditions", conditions_in_words(test.test)}};
   out["readings"] = page_readings(test);
   if (auto compared = yield_stresses_json(test); !compared.empty()) out["yield_stress"] = std::move(compared);
   if (const auto& measured = test.yield_stress)
@@ -177,7 +169,6 @@ ordered_json page_test(const Findings& findings, std::size_t index) {
   const TestView& view = findings.views[index];
   for (const Drawing& drawing : drawings_of(test.test, runs_drawn(test, view), laboratory_measurements(test)))
     out["drawings"].push_back(json_of_drawing(drawing));
-  out["packings_drawn"] = view.runs.size();
   if (!view.film.empty()) out["film"] = ordered_json::parse(view.film.index);
   out["run_shown"] = run_shown(test, view);
   return out;
@@ -199,22 +190,13 @@ ordered_json page_inference(const Inference& inference) {
   ordered_json out{{"words", what_is_determined(inference)}, {"simulations", inference.simulations}};
   for (std::size_t i = 0; i < inference.fitted.size(); ++i)
     out["noise"][inference.fitted[i]] = rounded(inference.noise[i]);
-  for (const ParameterInterval& one : inference.intervals)
-    out["intervals"].push_back({{"name", one.parameter.name},
-                                {"lower", rounded(one.lower.at)},
-                                {"upper", rounded(one.upper.at)},
-                                {"lower_known", one.lower.known},
-                                {"upper_known", one.upper.known},
-                                {"held", {rounded(one.held_lower.at), rounded(one.held_upper.at)}}});
   for (const EquivalentMaterial& one : inference.family) {
     auto values = ordered_json::object(), readings = ordered_json::object();
     for (std::size_t i = 0; i < one.values.size(); ++i)
       values[inference.intervals[i].parameter.name] = rounded(one.values[i]);
     for (std::size_t i = 0; i < one.readings.size(); ++i) readings[inference.fitted[i]] = rounded(one.readings[i]);
-    out["family"].push_back({{"values", std::move(values)},
-                             {"readings", std::move(readings)},
-                             {"simulated", one.simulated},
-                             {"miss", rounded(one.distance, 3)}});
+    out["family"].push_back(
+        {{"values", std::move(values)}, {"readings", std::move(readings)}, {"simulated", one.simulated}});
   }
   return out;
 }
@@ -256,11 +238,8 @@ ordered_json search_of(const Findings& findings) {
   if (findings.card) {
     const SearchRecord& search = findings.card->search;
     out["strategy"] = search.strategy;
-    out["status"] = search.status;
     out["reason"] = search.reason;
     out["budget"] = search.budget;
-    out["coarse"] = search.coarse_simulations;
-    out["failures"] = search.failures;
     out["seed"] = search.seed;
   }
   out["history"] = search_history(findings);
@@ -283,7 +262,6 @@ ordered_json page_content(const Findings& findings, const std::string& command) 
                       {"refuted", card.confirmation.refuted},
                       {"only_heaps_refute", only_heaps_refute(card)},
                       {"unconfirmed", cause_unconfirmed(card)},
-                      {"status", card.search.status},
                       {"misfit", card.confirmation.error},
                       {"fresh", card.confirmation.fresh},
                       {"packings", card.confirmation.packings}};

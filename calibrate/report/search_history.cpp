@@ -129,7 +129,6 @@ ordered_json search_history(const Findings& findings) {
     if (evaluation.failure)
       point["failure"] = std::string(name_of(evaluation.failure->reason)) + ": " + evaluation.failure->message;
     if (evaluation.run.ended_early) point["ended_early"] = true;
-    point["wall_s"] = rounded(evaluation.wall_s, 3);
     if (!evaluation.sketch.points.empty()) point["sketch"] = to_json(evaluation.sketch);
     if (findings.study) judge(findings, evaluation, point);
     out.push_back(std::move(point));

@@ -69,7 +69,7 @@ const calls = {
     const { title } = read(study);
     if (title.startsWith("refused")) return { faults: [fault("lab.json: title", "is refused", "another title")] };
     search = { title, seed, lab: read(lab), answers: [...stored], asked: 0, next: 0, stopped: false, fresh: [] };
-    return { ok: { title, parameters: ["strength_pa"], readings: ["step1.slump_mm"], budget } };
+    return { ok: { title, budget } };
   },
   suggest: ({ count }) => {
     const left = budget - search.answers.length - search.asked;

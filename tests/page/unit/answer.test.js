@@ -19,7 +19,6 @@ const verdictWith = (part = {}) => ({
   words: "Not certain: too near to tell",
   reservations: [],
   meets_laboratory: false,
-  status: "unconfirmed",
   misfit: 1.5,
   fresh: true,
   packings: [1011, 1012],

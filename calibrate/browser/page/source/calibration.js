@@ -14,7 +14,7 @@ import { remainingSeconds } from "./live.js";
  * @property {(saved: Saved, records: unknown[]) => Promise<void>} append
  */
 
-/** @typedef {{title: string, parameters: unknown[], readings: unknown[], budget: number}} Opened */
+/** @typedef {{title: string, budget: number}} Opened */
 
 export class Calibration {
   /**

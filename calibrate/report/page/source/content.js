@@ -32,7 +32,6 @@
  * @property {boolean} [refuted]
  * @property {boolean} [only_heaps_refute] every reading is met, but a laboratory would reject the heaps
  * @property {string} [unconfirmed] why it is not; empty if it is confirmed
- * @property {string} status
  * @property {number} misfit over the one that is asked for
  * @property {boolean} fresh confirmed on packings that the search had not seen
  * @property {number[]} packings
