@@ -17,20 +17,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json parameter_json(const Parameter& parameter) {
-  ordered_json out{{"name", parameter.name}, {"free", parameter.free}};
-  if (parameter.free) {
-    out["lower"] = parameter.lower;
-    out["upper"] = parameter.upper;
-    out["scale"] = word_of(parameter.scale, scales);
-  } else {
-    out["value"] = parameter.value;
-  }
-  if (parameter.prior)
-    out["prior"] = {{"value", parameter.prior->value}, {"standard_deviation", parameter.prior->standard_deviation}};
-  return out;
-}
-
 ordered_json reading_json(const StudyReading& reading) {
   return {{"name", reading.name},
           {"measured", reading.measurement.value},

@@ -19,21 +19,21 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// Parameters of the material; of a search without results the free ones.
 ordered_json parameters_of(const Findings& findings) {
-  const Card& card = *findings.card;
   auto out = ordered_json::array();
+  if (!findings.card) {
+    for (const Parameter& parameter : findings.study->parameters)
+      if (parameter.free) out.push_back(parameter_json(parameter));
+    return out;
+  }
+  const Card& card = *findings.card;
   for (const Parameter& parameter : card.material.parameters) {
     if (!has_parameter(card, parameter.name)) continue;
     const auto kind = std::ranges::find(parameter_kinds(), parameter.name, &ParameterKind::name);
-    ordered_json one{{"name", parameter.name},
-                     {"meaning", kind == parameter_kinds().end() ? "" : std::string(kind->meaning)},
-                     {"value", parameter.value},
-                     {"free", parameter.free}};
-    if (parameter.free) {
-      one["lower"] = parameter.lower;
-      one["upper"] = parameter.upper;
-      one["scale"] = parameter.scale == Scale::logarithmic ? "log" : "linear";
-    }
+    ordered_json one = parameter_json(parameter);
+    one["meaning"] = kind == parameter_kinds().end() ? "" : std::string(kind->meaning);
+    one["value"] = parameter.value;
     const auto& known = card.inference;
     for (const auto& interval : known.intervals)
       if (interval.parameter == parameter.name) {
@@ -45,19 +45,6 @@ ordered_json parameters_of(const Findings& findings) {
       if (unseen.parameter == parameter.name) one["not_identified"] = unseen.reason;
     out.push_back(std::move(one));
   }
-  return out;
-}
-
-/// Free parameters of a search without results.
-ordered_json parameters_of(const Study& study) {
-  auto out = ordered_json::array();
-  for (const Parameter& parameter : study.parameters)
-    if (parameter.free)
-      out.push_back({{"name", parameter.name},
-                     {"free", true},
-                     {"lower", parameter.lower},
-                     {"upper", parameter.upper},
-                     {"scale", parameter.scale == Scale::logarithmic ? "log" : "linear"}});
   return out;
 }
 
@@ -267,7 +254,6 @@ ordered_json page_content(const Findings& findings, const std::string& command) 
                       {"packings", card.confirmation.packings}};
     out["type_in"] = type_in_of(card);
     out["damping"] = damping_law(card.material.contact.normal);
-    out["parameters"] = parameters_of(findings);
     out["interval_level"] = card.inference.level;
     out["radius_mm"] = 1e3 * card.material.grains.radius_m;
     out["tests"] = ordered_json::array();
@@ -278,7 +264,7 @@ ordered_json page_content(const Findings& findings, const std::string& command) 
                          {"study_hash", card.provenance.study_hash},
                          {"program", card.provenance.program}};
   }
-  if (!findings.card && findings.study) out["parameters"] = parameters_of(*findings.study);
+  if (findings.card || findings.study) out["parameters"] = parameters_of(findings);
   if (findings.inference) {
     out["inference"] = page_inference(*findings.inference);
     out["inference"]["sensitivities"] = sensitivities(findings);

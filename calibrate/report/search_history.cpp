@@ -109,10 +109,7 @@ double changed(const Parameter& parameter, double value) {
 }
 
 ordered_json axis_of(const Parameter& parameter, const std::vector<double>& places) {
-  ordered_json out{{"name", parameter.name},
-                   {"lower", parameter.lower},
-                   {"upper", parameter.upper},
-                   {"scale", parameter.scale == Scale::logarithmic ? "log" : "linear"}};
+  ordered_json out = parameter_json(parameter);
   auto& values = out["places"] = ordered_json::array();
   for (const double place : places) values.push_back(rounded(value_between(parameter, place), 8));
   return out;

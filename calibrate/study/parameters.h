@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -97,5 +98,20 @@ Test test_with(Test test, std::span<const double> values, std::uint64_t packing_
 
 /// Names of the scales in files.
 inline constexpr std::array<Named<Scale>, 2> scales{{{"linear", Scale::linear}, {"log", Scale::logarithmic}}};
+
+/// {"name", "free"}, with {"lower", "upper", "scale"} of a free parameter or {"value"} of a fixed one, and its "prior".
+inline nlohmann::ordered_json parameter_json(const Parameter& parameter) {
+  nlohmann::ordered_json out{{"name", parameter.name}, {"free", parameter.free}};
+  if (parameter.free) {
+    out["lower"] = parameter.lower;
+    out["upper"] = parameter.upper;
+    out["scale"] = word_of(parameter.scale, scales);
+  } else {
+    out["value"] = parameter.value;
+  }
+  if (parameter.prior)
+    out["prior"] = {{"value", parameter.prior->value}, {"standard_deviation", parameter.prior->standard_deviation}};
+  return out;
+}
 
 }  // namespace pastefit
