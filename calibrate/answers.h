@@ -44,7 +44,6 @@ class Answers {
   virtual Evaluation evaluation_of(std::span<const Simulation> simulations,
                                    std::span<const StoredEvaluation> evaluations) const = 0;
 
-  /// Training data from the responses of a search.
   virtual TrainingData evidence(std::span<const Response> history) const = 0;
   /// Nothing if a card cannot represent the test.
   virtual std::optional<Card> card(const Calibration& found, const EvaluationCounts& counts) const = 0;
@@ -65,7 +64,6 @@ int hold_out_simulations(const Study& study);
 /// Search options without these simulations, which follow the search.
 SearchOptions options_of_the_search(const Study& study);
 
-/// Which tests of a study are simulated.
 enum class Simulates {
   every_test,   ///< held-out ones, coarse grains and changed conditions, too
   fitted_tests  ///< by a program that knows a candidate's parameters and seed only

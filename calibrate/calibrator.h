@@ -17,7 +17,6 @@
 
 namespace pastefit {
 
-/// Result of a calibration.
 struct CalibrationResult {
   Calibration search;
   EvaluationCounts counts;

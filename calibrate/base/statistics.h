@@ -37,7 +37,6 @@ struct WeighedSquare {
 /// chi-square variable with one degree of freedom. Requirement: at least one, weights > 0.
 double typical_variance(std::vector<WeighedSquare> squares);
 
-/// Interval of a probability.
 struct ProbabilityInterval {
   double lower = 0, upper = 1;
 };

@@ -11,7 +11,6 @@
 
 namespace pastefit {
 
-/// Study of a batch, with the folder of its calibration.
 struct BatchStudy {
   std::string name;              ///< unique in the batch; also the folder's name
   std::filesystem::path file;    ///< as the user named it

@@ -10,7 +10,6 @@
 
 namespace pastefit {
 
-/// Row of the table: results of one study.
 struct BatchRow {
   std::string study;
   /// "confirmed", "unconfirmed", "out_of_reach", "stopped", "failed" as in a card; "unfinished": no card yet;

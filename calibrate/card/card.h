@@ -96,7 +96,6 @@ struct Confirmation {
   std::optional<double> rejected_share = std::nullopt;
 };
 
-/// Record of the search for the material.
 struct SearchRecord {
   std::string strategy;
   std::string status;  ///< final status, e.g. "confirmed"

@@ -106,7 +106,6 @@ int say_why_not(const CalibrationResult& result, const Study& study, const Store
   return kFailed;
 }
 
-/// Reads the study and applies the options.
 Study study_to_calibrate(const CalibrateArguments& options) {
   Study study = value_or_throw(read_study_with(options.study, options.settings));
   if (options.budget > 0) study.search.budget_simulations = options.budget;

@@ -18,10 +18,8 @@ namespace pastefit {
 /// Above 0 and at most 1e9, beyond any useful duration or size.
 CLI::Validator positive_number();
 
-/// From `smallest` to `largest`.
 CLI::Validator number_from(double smallest, double largest);
 
-/// Unsigned integer from `smallest` to `largest`.
 CLI::Validator whole_number(std::uint64_t smallest = 0,
                             std::uint64_t largest = std::numeric_limits<std::uint64_t>::max());
 

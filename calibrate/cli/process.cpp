@@ -23,7 +23,6 @@ namespace {
 
 constexpr int kNotStarted = 127;  // same as in shells
 
-/// Whole content of the file.
 std::string content_of(int file) {
   std::string out;
   std::array<char, 1 << 16> part{};

@@ -59,7 +59,6 @@ inline bool is_feasible(const Response& response) {
          response.residuals.allFinite();
 }
 
-/// True if feasible and not censored.
 inline bool is_whole(const Response& response) {
   return is_feasible(response) && !response.censored;
 }
@@ -78,7 +77,6 @@ inline std::vector<const Evaluation*> accepted(std::span<const Evaluation> evalu
   return out;
 }
 
-/// Evidence of a response for the verdict.
 inline Evidence evidence_of(const Response& response) {
   Evidence out{.error = response.error, .noise = response.noise, .whole = is_whole(response)};
   for (const Evaluation& one : response.evaluations) out.add_heap(one.rejection_index);

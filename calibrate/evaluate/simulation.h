@@ -95,7 +95,6 @@ std::string simulate_task(const std::string& task);
 /// Answer of a task that could not be run.
 std::string failed_task(const std::string& message);
 
-/// Content of an answer.
 struct TaskAnswer {
   Outcome outcome;
   Sketch sketch;      ///< no points: none

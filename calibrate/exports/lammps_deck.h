@@ -45,7 +45,6 @@ std::string grains_data(const ExportScene& scene, const DataFile& file);
 /// Elasto-plastic grains: shorter by the root of k2/k1; `luding`: at most a 25th of a collision.
 double deck_time_step_s(const ExportScene& scene);
 
-/// Contents of a LAMMPS log.
 struct LammpsLog {
   std::string program;  ///< first line, e.g. "LAMMPS (29 Sep 2021 - Update 2)"; may be empty
   int copies = 0;       ///< occurrences of that line: one per run

@@ -12,7 +12,6 @@ namespace pastefit {
 
 namespace {
 
-/// Row of the parameter table.
 struct ParameterRow {
   std::string name;  ///< with its unit
   double value = 0;

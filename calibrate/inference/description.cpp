@@ -103,7 +103,6 @@ std::string prior_line(const ParameterInterval& one) {
                 ends_in_words(one.lower, one.upper).c_str(), 100 * one.uncertainty);
 }
 
-/// Why there is no interval of a parameter.
 std::string not_identified_because(const Inference& inference, const ParameterInterval& one) {
   if (inference.intervals.size() == 1) return "the readings do not narrow it below its bounds";
   if (one.any_value_fits()) return "any value within its bounds fits if the others change with it";

@@ -37,7 +37,6 @@ class Examination {
   };
   /// Next request; empty at the end. `stopped`: nothing more is simulated.
   std::optional<Request> next(bool stopped = false);
-  /// Takes the answers to the last request.
   void ingest(std::vector<Response> answers);
   /// The inference; empty if no simulation was completed. Requirement: `next` returned nothing.
   std::optional<Inference> result() const;

@@ -56,7 +56,6 @@ void contain(Ends& ends, const Ends& others) {
   if (others.upper.at > ends.upper.at) ends.upper = others.upper;
 }
 
-/// Clips ends to another interval.
 void clip(Ends& ends, const Ends& others) {
   if (others.lower.at > ends.lower.at) ends.lower = others.lower;
   if (others.upper.at < ends.upper.at) ends.upper = others.upper;

@@ -9,7 +9,6 @@
 
 namespace pastefit {
 
-/// End of an interval.
 struct IntervalEnd {
   double at = 0;
   bool known = false;  ///< the data set this end, not the study's bound

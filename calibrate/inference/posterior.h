@@ -19,7 +19,6 @@ namespace pastefit {
 std::vector<UnitPoint> posterior_sample(const std::function<double(const UnitPoint&)>& log_likelihood, int dimension,
                                         int count, std::uint64_t seed);
 
-/// Moments of a sample.
 struct Moments {
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;

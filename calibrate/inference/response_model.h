@@ -40,7 +40,6 @@ class ResponseModel {
   explicit ResponseModel(TrainingData evidence);
 
   const TrainingData& training_data() const { return evidence_; }
-  /// Mean reading of a candidate, and its predictive variance.
   ReadingModel::Prediction predict(std::size_t reading, const UnitPoint& point) const;
   /// Change of the mean reading between two candidates (`ReadingModel::change`); nothing where the models are not
   /// trusted.

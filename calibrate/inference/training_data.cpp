@@ -28,7 +28,6 @@ int most_repeats(const std::vector<StudyReading>& readings) {
   return most;
 }
 
-/// Index of the test of a reading, by its name in the study.
 std::size_t index_of_test(const Study& study, const std::string& name) {
   for (std::size_t test = 0; test < study.tests.size(); ++test)
     for (const ReadingKind& kind : reading_kinds(study.tests[test].lab.test))

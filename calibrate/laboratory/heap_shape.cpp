@@ -28,7 +28,6 @@ const Measurement* first_of(std::span<const Measurement> measurements, std::init
   return nullptr;
 }
 
-/// Height and width of one heap.
 struct Heap {
   const Measurement& height;
   const Measurement& width;

@@ -184,7 +184,6 @@ std::vector<std::string_view> kinds_of_tests();
 /// Test of this kind with default values; nothing if unknown.
 std::optional<Test> test_of_kind(std::string_view kind);
 
-/// Fault of an unknown kind.
 Fault no_such_kind(std::string where, std::string_view word);
 
 /// Names of all starting files: "lab" and "study" for the first kind, prefixed by their word for others; the sheet to

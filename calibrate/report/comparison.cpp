@@ -39,7 +39,6 @@ const Parameter* parameter_of(const Card& card, std::string_view name) {
   return found != card.material.parameters.end() && has_parameter(card, name) ? &*found : nullptr;
 }
 
-/// True if the card's interval of a parameter excludes a value.
 bool excludes(const Card& card, std::string_view parameter, double value) {
   const auto& intervals = card.inference.intervals;
   const auto found = std::ranges::find(intervals, parameter, &CardInference::Interval::parameter);

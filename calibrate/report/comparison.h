@@ -8,7 +8,6 @@
 
 namespace pastefit {
 
-/// Card with the name of its file.
 struct CardFile {
   std::string name;
   Card card;

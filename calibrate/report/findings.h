@@ -32,7 +32,6 @@ Findings findings_without_card(const Study& study, const Store& store);
 /// Results of a completed calibration. `inference`: its own; if absent, it is computed.
 Findings findings_of(const Card& card, const Store& store, const std::optional<Inference>& inference);
 
-/// Inference of a card's material from the evaluations.
 Inference inference_of(const Card& card, const TrainingData& evidence);
 
 inline const std::string kCardFile = "card.json";

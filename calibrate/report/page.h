@@ -21,7 +21,6 @@ std::string page_of(const Findings& findings, const std::string& command);
 
 inline const std::string kPage = "report.html";
 
-/// Options of `look_at_tests`.
 struct LookOptions {
   int threads = 0;
   bool simulate = true;  ///< simulate what is neither seen nor kept

@@ -17,7 +17,6 @@
 
 namespace pastefit {
 
-/// Wall in one picture.
 struct RecordedWall {
   std::string name;
   Shape shape;
@@ -67,14 +66,12 @@ class RunRecorder {
   int drop_ = 0;
 };
 
-/// One simulation as seen by an observer.
 struct SeenSimulation {
   SeenRun seen;
   std::optional<RunRecorder> film;  ///< none if not filmed
   std::optional<Failure> failure;
   bool ended = false;
 
-  /// Takes a snapshot of this test.
   void see(const Test& test, const Snapshot& snapshot);
   void end(const Outcome& outcome);
 };

@@ -20,7 +20,6 @@ enum class CalibrationStatus {
 /// Name in files and messages, e.g. "out_of_reach".
 std::string_view name_of(CalibrationStatus status);
 
-/// Progress report of a search.
 struct Progress {
   std::string_view phase;  ///< "screening", "search", "refinement", "confirmation"
   int simulations = 0;     ///< finished
@@ -36,7 +35,6 @@ struct Reach {
   bool all_below = false;          ///< all simulations, coarse ones corrected, are below measurement less tolerance
 };
 
-/// Result of a search.
 struct Calibration {
   Response best;          ///< recommended candidate on all its packings
   Response search;        ///< the same on the packings before its confirmation

@@ -46,7 +46,6 @@ class EvaluationHistory {
   void try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
   /// The answers go to `coarse_singles`, weighted as those of fine grains.
   void evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
-  /// True if the open request is not answered yet.
   bool is_waiting() const { return awaited_ && !queue_.is_answered(awaited_->numbers); }
   /// Takes the answers to the open request, if any. Requirement: not `is_waiting()`.
   void take_answers();

@@ -9,7 +9,6 @@
 
 namespace pastefit {
 
-/// State of a run.
 struct RunState {
   std::string bytes;  ///< of its `RunCheckpoint`; empty: not started
   double wall_s = 0;  ///< time taken so far

@@ -12,12 +12,10 @@ namespace pastefit {
 /// Free space required by a command: a million exported grains take some 60 MB, a picture of 100,000 some 10 MB.
 inline constexpr std::uintmax_t kSpace = 64u << 20;
 
-/// File name of a command's store.
 inline const std::string kStore = "evaluations.sqlite";
 /// `names` plus the store's file and those that SQLite keeps beside it.
 std::vector<std::string> with_store(std::vector<std::string> names);
 
-/// Treatment of an earlier result in the folder.
 enum class EarlierResult { refuse, resume, replace };
 
 /// Output folder, checked before anything runs: it exists, is writable, has space, and is locked for this process

@@ -14,7 +14,6 @@
 
 namespace pastefit {
 
-/// Program and inputs of a store.
 struct StoreIdentity {
   std::string program;  ///< version and engine fingerprint; evaluations of others are not reused
   std::string inputs;   ///< all that determines the path of the search, as JSON text (`inputs_of` a study)
@@ -81,7 +80,6 @@ class Store {
   /// used.
   const std::vector<std::string>& remarks() const;
 
-  /// Evaluation with this key, if stored.
   std::optional<StoredEvaluation> find(std::string_view key) const;
 
   /// Stores an evaluation; known keys change nothing. Errors: the disk is full or failed; the evaluation is then not

@@ -93,7 +93,6 @@ Test with_contact_of(Test test, std::span<const double> values);
 /// friction basis are unchanged.
 Test with_default_contact(Test test);
 
-/// The test with these parameter values and this packing.
 Test test_with(Test test, std::span<const double> values, std::uint64_t packing_seed);
 
 /// Names of the scales in files.

@@ -283,7 +283,6 @@ void predict_reading(ordered_json& lab, Test test, const std::vector<double>& st
                     " Pa, with the formula's own error");
 }
 
-/// Faults of implausible numbers in the sheet.
 Faults doubtful_numbers(const Sheet& sheet, const std::vector<double>& densities) {
   Faults faults;
   if (densities.size() > 1)

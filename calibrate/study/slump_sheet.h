@@ -39,7 +39,6 @@ struct StartingFiles {
   std::string lab, study;
 };
 
-/// Short name of a reading, and its key.
 struct ShortReading {
   std::string_view name, key, meaning;
 };

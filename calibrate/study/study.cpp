@@ -51,7 +51,6 @@ void describe_choice(Fields& fields, ContactModel& laws) {
       laws.friction_basis, friction_bases, optional);
 }
 
-/// Reads the choice of laws.
 ContactModel read_contact(ObjectReader& document) {
   ContactModel laws;
   laws.bridge.shape = BridgeShape::polynomial;

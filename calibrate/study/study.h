@@ -79,7 +79,6 @@ struct Target {
   std::optional<double> tolerance = std::nullopt;  ///< in the reading's unit; none: see `calibrate/study/tolerance.h`
 };
 
-/// Options of the search.
 struct SearchOptions {
   std::string strategy = "default";  ///< name of a search strategy or of an NLopt algorithm
   int screening = 8;                 ///< space-filling points

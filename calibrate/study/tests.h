@@ -29,7 +29,6 @@ std::vector<StudyReading> readings_of(const Study& study);
 /// Indices of the fitted, or of the held-out tests.
 std::vector<std::size_t> tests_of(const Study& study, bool hold_out);
 
-/// Fault of an unknown test name.
 Fault no_such_test(const std::string& name, const std::vector<std::string>& names);
 
 /// How to read the laboratory files of a study.

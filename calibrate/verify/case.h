@@ -78,7 +78,6 @@ Result<Case> read_case(const std::filesystem::path& file);
 /// Shipped cases in alphabetical order: the files in `cases` of the first data folder (`data_folders`) that has any.
 std::vector<std::filesystem::path> shipped_cases();
 
-/// Scene of one point of a case.
 Result<Impact> scene_at(const Case& test, const Point& point);
 
 }  // namespace pastefit
