@@ -70,8 +70,6 @@ CalibrationSession::CalibrationSession(const json& request)
   calibrator_ = std::make_unique<Calibrator>(*answers_, [this](const Progress& progress) {
     phase_ = progress.phase;
     if (!progress.note.empty()) note_ = progress.note;
-    progress_ = progress;
-    progress_.phase = {};
   });
   if (const auto stored = request.find("stored"); stored != request.end() && stored->is_array())
     for (const json& record : *stored)

@@ -47,7 +47,6 @@ class CalibrationSession {
   std::shared_ptr<const Study> study_;
   std::unique_ptr<Store> store_;
   std::unique_ptr<Answers> answers_;
-  Progress progress_;
   std::string phase_, note_;
   std::unique_ptr<Calibrator> calibrator_;
   std::map<std::string, std::string> stored_;  // answers of an earlier session, by task

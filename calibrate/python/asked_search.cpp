@@ -27,8 +27,6 @@ AskedSearch::AskedSearch(std::unique_ptr<Store> store, std::unique_ptr<Answers> 
       calibrator_(*answers_, [this](const Progress& progress) {
         const std::lock_guard lock(mutex_);
         progress_ = progress;
-        phase_ = progress.phase;
-        progress_.phase = {};
       }) {}
 
 ordered_json AskedSearch::suggest(std::size_t count) {
@@ -130,7 +128,7 @@ ordered_json AskedSearch::result() const {
 
 ordered_json AskedSearch::progress() const {
   const std::lock_guard lock(mutex_);
-  return progress_json(progress_, phase_);
+  return progress_json(progress_);
 }
 
 Result<std::shared_ptr<AskedSearch>> search_of_study(std::shared_ptr<const Study> study, const std::string& study_file,

@@ -56,7 +56,6 @@ class AskedSearch {
   std::map<std::size_t, std::vector<Simulation>> asked_;  // simulations of the suggested candidates
   mutable std::mutex mutex_;                              // guards what follows
   Progress progress_;
-  std::string phase_;
   Calibrator calibrator_;  // last: reports progress
 };
 

@@ -74,7 +74,7 @@ class CalibrationRun {
 
   std::string progress() const {
     const std::lock_guard lock(mutex_);
-    return progress_json(progress_, phase_).dump();
+    return progress_json(progress_).dump();
   }
 
   std::string result() const { return result_json(result_).dump(); }
@@ -87,8 +87,6 @@ class CalibrationRun {
     progress_ = progress;
     progress_.simulations = std::max(progress.simulations, before.simulations);
     if (progress_.best_error < 0) progress_.best_error = before.best_error;
-    phase_ = progress.phase;
-    progress_.phase = {};
   }
 
   void write(RunRecordings* looks) const {
@@ -111,7 +109,6 @@ class CalibrationRun {
   CalibrationResult result_;
   mutable std::mutex mutex_;  // guards what follows
   Progress progress_;
-  std::string phase_;
 };
 
 }  // namespace

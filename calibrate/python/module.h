@@ -52,6 +52,6 @@ nlohmann::ordered_json evaluation_json(std::size_t number, const StoredEvaluatio
                                        nlohmann::ordered_json parameters);
 
 /// Progress of a search, for calls from another thread.
-nlohmann::ordered_json progress_json(const Progress& progress, const std::string& phase);
+nlohmann::ordered_json progress_json(const Progress& progress);
 
 }  // namespace pastefit::python

@@ -70,8 +70,8 @@ ordered_json evaluations_json(const Store& store) {
   return out;
 }
 
-ordered_json progress_json(const Progress& progress, const std::string& phase) {
-  return {{"phase", phase},
+ordered_json progress_json(const Progress& progress) {
+  return {{"phase", progress.phase},
           {"simulations", progress.simulations},
           {"budget", progress.budget},
           {"best_miss", progress.best_error < 0 ? ordered_json() : ordered_json(progress.best_error)},

@@ -21,7 +21,7 @@ enum class CalibrationStatus {
 std::string_view name_of(CalibrationStatus status);
 
 struct Progress {
-  std::string_view phase;  ///< "screening", "search", "refinement", "confirmation"
+  std::string phase;       ///< "screening", "search", "refinement", "confirmation"
   int simulations = 0;     ///< finished
   int budget = 0;          ///< total allowed
   double best_error = -1;  ///< of the best candidate so far; negative: none yet

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -112,7 +113,7 @@ class EvaluationHistory {
   int at_start_ = 0;
   int budget_ = 0;
   int held_back_ = 0;
-  std::string_view phase_;
+  std::string phase_;
   double best_error_ = -1;
   std::size_t best_packings_ = 0;  // responses on more packings take precedence
   double common_packings_ = 1;
