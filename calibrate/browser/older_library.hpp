@@ -145,17 +145,6 @@ auto partial_sort(Range&& range, Place place, Less less = {}, Projection project
   std::partial_sort(std::begin(range), place, std::end(range), before_ranges::projected_less(less, projection));
   return std::end(range);
 }
-template <class Iterator>
-struct part_of_range {
-  Iterator first, last;
-  Iterator begin() const { return first; }
-  Iterator end() const { return last; }
-};
-template <class Range, class Predicate>
-auto stable_partition(Range&& range, Predicate predicate) {
-  const auto second = std::stable_partition(std::begin(range), std::end(range), predicate);
-  return part_of_range<decltype(std::begin(range))>{second, std::end(range)};
-}
 template <class Range, class Less = std::less<>, class Projection = std::identity>
 bool is_sorted(Range&& range, Less less = {}, Projection projection = {}) {
   return std::is_sorted(std::begin(range), std::end(range), before_ranges::projected_less(less, projection));
