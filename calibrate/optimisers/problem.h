@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pastefit {
@@ -24,11 +26,17 @@ struct Answer {
 };
 
 /// True if it did not fail and is finite.
-bool is_feasible(const Answer& answer);
+inline bool is_feasible(const Answer& answer) {
+  return answer.point.size() > 0 && !answer.failed && std::isfinite(answer.value) && answer.residuals.allFinite();
+}
 
 /// True if `candidate` should replace `best`: feasible beats failed, then the smaller value wins. A `best` without a
 /// point loses.
-bool is_better(const Answer& candidate, const Answer& best);
+inline bool is_better(const Answer& candidate, const Answer& best) {
+  if (best.point.size() == 0) return true;
+  if (is_feasible(candidate) != is_feasible(best)) return is_feasible(candidate);
+  return candidate.value < best.value;
+}
 
 /// Function over the unit cube to be minimised.
 struct Problem {
@@ -42,7 +50,16 @@ struct Problem {
 
 /// Problem with one cheap number for each point; it cannot fail. The value should be >= 0; optimisers resolve values up
 /// to that of the start best.
-Problem scalar_problem(int parameters, std::function<double(const UnitPoint&)> value);
+inline Problem scalar_problem(int parameters, std::function<double(const UnitPoint&)> value) {
+  Problem problem;
+  problem.parameters = parameters;
+  problem.answer = [value = std::move(value)](std::span<const UnitPoint> points) {
+    std::vector<Answer> answers;
+    for (const UnitPoint& point : points) answers.push_back({.point = point, .value = value(point), .residuals = {}});
+    return answers;
+  };
+  return problem;
+}
 
 /// Result of one run of an optimiser.
 struct Optimum {
