@@ -59,10 +59,7 @@ class ObjectSchema {
     for (const Named<T>& word : words) names.push_back(word.name);
     put(key, key.schema.empty() ? Json{{"enum", names}} : Json{{"$ref", key.schema}}, presence);
   }
-  template <class Body>
-  void object(const Key& key, Presence presence, Body body) {
-    put(key, described(body), presence);
-  }
+  void object(const Key& key, Presence presence, auto body) { put(key, described(body), presence); }
   template <class T, class Body>
   void nullable_object(const Key& key, const std::optional<T>&, Need need, Body body) {
     T any{};
@@ -72,10 +69,7 @@ class ObjectSchema {
   void optional_object(const Key& key, const std::optional<T>& value, Body body) {
     nullable_object(key, value, Need::optional, body);
   }
-  template <class Written, class Body>
-  void derived_object(const Key& key, Written, Body body) {
-    body(*this, key);
-  }
+  void derived_object(const Key& key, auto, auto body) { body(*this, key); }
   template <class T, class Body>
   void list(const Key& key, const std::vector<T>&, Need need, Body body) {
     T any{};
@@ -90,8 +84,7 @@ class ObjectSchema {
     const Json entry = described([&](ObjectSchema& inner) { body(inner, Key("NAME"), any); });
     put(key, {{"type", "object"}, {"additionalProperties", entry.at("properties").at("NAME")}}, presence);
   }
-  template <class List, class Body>
-  void known_entries(const Key& key, List& list, Need need, Body body) {
+  void known_entries(const Key& key, auto& list, Need need, auto body) {
     const Json entries = described([&](ObjectSchema& inner) {
       for (auto& one : list) body(inner, one);
     });
@@ -107,8 +100,7 @@ class ObjectSchema {
   /// Adds a schema to the definitions, and returns a reference to it.
   Json defined(const std::string& name, Json schema);
   /// Schema of what `body(ObjectSchema&)` describes.
-  template <class Body>
-  Json described(Body body) {
+  Json described(auto body) {
     Json object;
     ObjectSchema inner(object, definitions_);
     body(inner);

@@ -19,10 +19,7 @@ class BasicObjectWriter {
   static constexpr bool reads = false;
   explicit BasicObjectWriter(Json& object) : object_(object) { object_ = Json::object(); }
 
-  template <class When>
-  void number(const Key& key, double value, const Range&, When when) {
-    put(key, value, when);
-  }
+  void number(const Key& key, double value, const Range&, auto when) { put(key, value, when); }
   void nullable_number(const Key& key, const std::optional<double>& value, const Range&, Need) {
     at(key) = value ? Json(*value) : Json();
   }
@@ -33,18 +30,9 @@ class BasicObjectWriter {
     optional_number(key, value, range);
   }
   void integer(const Key& key, std::uint64_t value, Need) { at(key) = value; }
-  template <class When>
-  void integer(const Key& key, int value, int, int, When when) {
-    put(key, value, when);
-  }
-  template <class When>
-  void text(const Key& key, std::string_view value, When when) {
-    put(key, value, when);
-  }
-  template <class When>
-  void flag(const Key& key, bool value, When when) {
-    put(key, value, when);
-  }
+  void integer(const Key& key, int value, int, int, auto when) { put(key, value, when); }
+  void text(const Key& key, std::string_view value, auto when) { put(key, value, when); }
+  void flag(const Key& key, bool value, auto when) { put(key, value, when); }
   void optional_flag(const Key& key, const std::optional<bool>& value) {
     if (value) at(key) = *value;
   }
@@ -65,8 +53,7 @@ class BasicObjectWriter {
     for (const Named<T>& word : words)
       if (word.value == value) at(key) = word.name;
   }
-  template <class When, class Body>
-  void object(const Key& key, When when, Body body) {
+  void object(const Key& key, auto when, auto body) {
     if (!is_written(0, when)) return;
     BasicObjectWriter writer(at(key));
     body(writer);
@@ -82,8 +69,7 @@ class BasicObjectWriter {
   void optional_object(const Key& key, const std::optional<T>& value, Body body) {
     if (value) nullable_object(key, value, Need::optional, body);
   }
-  template <class Written, class Body>
-  void derived_object(const Key& key, Written written, Body) {
+  void derived_object(const Key& key, auto written, auto) {
     if (auto object = written(); !object.is_null()) at(key) = std::move(object);
   }
   template <class T, class Body>
@@ -101,8 +87,7 @@ class BasicObjectWriter {
       for (const T& one : value) body(writer, Key(one.*name), one);
     });
   }
-  template <class List, class Body>
-  void known_entries(const Key& key, const List& list, Need need, Body body) {
+  void known_entries(const Key& key, const auto& list, Need need, auto body) {
     object(key, need, [&](BasicObjectWriter& writer) {
       for (const auto& one : list) body(writer, one);
     });
@@ -111,26 +96,16 @@ class BasicObjectWriter {
 
  private:
   Json& at(const Key& key) { return object_[std::string(key.name)]; }
-  template <class T, class When>
-  void put(const Key& key, const T& value, When when) {
+  void put(const Key& key, const auto& value, auto when) {
     if (is_written(value, when)) at(key) = value;
   }
-  template <class T>
-  static bool is_written(const T&, Need) {
-    return true;
-  }
+  static bool is_written(const auto&, Need) { return true; }
   template <class T, class By>
   static bool is_written(const T& value, const Default<By>& by_default) {
     return value != by_default.value;
   }
-  template <class T>
-  static bool is_written(const T&, With with) {
-    return with.there;
-  }
-  template <class T>
-  static bool is_written(const T&, WrittenIf written) {
-    return written.holds;
-  }
+  static bool is_written(const auto&, With with) { return with.there; }
+  static bool is_written(const auto&, WrittenIf written) { return written.holds; }
 
   Json& object_;
 };

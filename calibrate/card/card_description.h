@@ -65,8 +65,7 @@ void describe_reading(Fields& fields, Of& one, const Range& range, std::size_t p
   fields.optional_number({"band", "of a hold-out: difference that the noise of both explains"}, one.band, not_negative);
 }
 
-template <class Fields, class Lab>
-void describe_provenance(Fields& fields, Lab& lab) {
+void describe_provenance(auto& fields, auto& lab) {
   fields.text({"source", "who measured"}, lab.source, required);
   fields.text({"licence", "under which it may be passed on"}, lab.licence, required);
   fields.text({"notes", "what else is known"}, lab.notes, required);
@@ -99,8 +98,7 @@ void describe_baseline(Fields& fields, Of& baseline, const Test* test) {
   if constexpr (Fields::reads) baseline.runs = baseline_runs(columns);
 }
 
-template <class Fields, class Of>
-void describe_yield_stresses(Fields& fields, const Key& key, Of&& stresses) {
+void describe_yield_stresses(auto& fields, const Key& key, auto&& stresses) {
   named_objects(fields, key, stresses, &ComparedYieldStress::reading, Need::optional, [](auto& stress, auto& one) {
     stress.text({"formula", "its authors and year"}, one.formula, required);
     stress.number({"simulated", "by the simulated reading"}, one.simulated_pa, not_negative, required);
@@ -199,8 +197,7 @@ void describe_parameters(Fields& fields, Of& parameters, const Card& card) {
       });
 }
 
-template <class Fields, class Of>
-void describe_confirmation(Fields& fields, Of& confirmation) {
+void describe_confirmation(auto& fields, auto& confirmation) {
   fields.integers({"packings", "seeds of the packings"}, confirmation.packings, required);
   fields.flag({"fresh", "the search had not seen these packings"}, confirmation.fresh, required);
   fields.number({"error",
@@ -243,8 +240,7 @@ void describe_search(Fields& fields, Of& search) {
                  Default{0});
 }
 
-template <class Fields, class Of>
-void describe_conditions(Fields& fields, Of& conditions) {
+void describe_conditions(auto& fields, auto& conditions) {
   named_objects(
       fields,
       {"unstated_conditions",
@@ -301,8 +297,7 @@ void describe_inference(Fields& fields, Of& inference) {
   describe_conditions(fields, inference.conditions);
 }
 
-template <class Fields, class Of>
-void describe_rebaseline(Fields& fields, Of& change) {
+void describe_rebaseline(auto& fields, auto& change) {
   fields.text({"why", "in words"}, change.why, required);
   fields.text({"program_before", "version and fingerprint"}, change.program_before, required);
   fields.text({"program_after", "version and fingerprint"}, change.program_after, required);
@@ -313,8 +308,7 @@ void describe_rebaseline(Fields& fields, Of& change) {
                 });
 }
 
-template <class Fields, class Of>
-void describe_rescaling(Fields& fields, Of& step) {
+void describe_rescaling(auto& fields, auto& step) {
   fields.number({"from_radius_m", "mean radius before"}, step.from_radius_m, grain_radius, required);
   named_objects(fields, {"bias", "what the step did to the readings"}, step.bias, &Rescaling::Bias::reading, required,
                 [](auto& bias, auto& one) {
@@ -324,8 +318,7 @@ void describe_rescaling(Fields& fields, Of& step) {
                 });
 }
 
-template <class Fields, class Of>
-void describe_further_confirmation(Fields& fields, Of& one) {
+void describe_further_confirmation(auto& fields, auto& one) {
   fields.text({"engine", "that simulated it"}, one.engine, required);
   fields.text({"program", "as it calls itself, with its version"}, one.program, required);
   fields.text({"test", "name of the test; without it the card's only one"}, one.test, Default{std::string()});
@@ -352,8 +345,7 @@ void describe_further_confirmation(Fields& fields, Of& one) {
                 });
 }
 
-template <class Fields, class Of>
-void describe_interpolation(Fields& fields, Of& one) {
+void describe_interpolation(auto& fields, auto& one) {
   static constexpr std::array<Named<std::string_view>, 2> models{
       {{"linear", "linear"}, {"gaussian_process", "gaussian_process"}}};
   fields.text({"variable", "of the laboratory files, with its place there"}, one.variable, required);

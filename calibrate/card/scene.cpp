@@ -83,9 +83,8 @@ void take_out_slips(SceneSettings& settings, const json& document, Faults& fault
 }
 
 /// Reads the document with `from_json`, settings applied first.
-template <class FromJson>
 auto read_with(json document, const SceneSettings& settings, const std::filesystem::path& file, Faults& faults,
-               FromJson from_json) {
+               auto from_json) {
   for (const auto& setting : settings.others) apply(setting, document, faults);
   auto result = from_json(document);
   if (!result.ok())
@@ -107,8 +106,7 @@ Test with_parameters(const Test& test, std::vector<double> values, const SceneSe
 }
 
 /// Index of the test with this name, of the first one if empty; none, and a fault, if there is none.
-template <class Tests>
-std::optional<std::size_t> chosen(const Tests& tests, const std::string& name, Faults& faults) {
+std::optional<std::size_t> chosen(const auto& tests, const std::string& name, Faults& faults) {
   if (name.empty()) return 0;
   const auto place = place_of_test(tests, name);
   if (place.ok()) return place.value();

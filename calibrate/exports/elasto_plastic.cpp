@@ -112,8 +112,7 @@ double spring_share(const ContactModel& contact, double overlap_ratio) {
 }
 
 /// Values for the grains and each wall from the pair constants.
-template <class OfPair>
-std::string of_pairs(const ExportScene& scene, const OfPair& of_pair) {
+std::string of_pairs(const ExportScene& scene, const auto& of_pair) {
   std::vector<double> values{of_pair(grain_pair(scene.contact(), scene.radius_m()))};
   for (const auto& [name, wall] : walls_of(scene.test))
     values.push_back(of_pair(wall_pair(scene.contact(), wall, scene.radius_m())));

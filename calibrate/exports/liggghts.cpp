@@ -38,8 +38,7 @@ Models models_of(const ContactModel& contact, bool attracts) {
 }
 
 /// Values of the grains, then of the walls; `of` accepts both.
-template <class Of>
-std::vector<double> by_type(const ContactModel& grains, const std::vector<ExportWall>& walls, const Of& of) {
+std::vector<double> by_type(const ContactModel& grains, const std::vector<ExportWall>& walls, const auto& of) {
   std::vector<double> out{of(grains)};
   for (const ExportWall& wall : walls) out.push_back(of(wall.contact));
   return out;

@@ -25,14 +25,12 @@ inline constexpr std::string_view kind_of(const DropTest&) {
 double grains_needed(const DropTest& test);
 
 /// Keys of "apparatus" in laboratory and apparatus files: millimetres and degrees.
-template <class Fields>
-void describe_apparatus(Fields& apparatus, DropTest& test, Need need) {
+void describe_apparatus(auto& apparatus, DropTest& test, Need need) {
   read_dimensions(apparatus, test, drop_dimensions, need);
 }
 std::vector<FilePlace> places_in_files(const DropTest&);
 
-template <class Fields>
-void describe_test(Fields& fields, DropTest& test) {
+void describe_test(auto& fields, DropTest& test) {
   describe_dimensions(fields, test, drop_dimensions);
   describe_specimen(fields, test);
 }

@@ -40,8 +40,7 @@ std::size_t series_at(const T&, const Snapshot& snapshot) {
 }
 
 /// Surface of the tools in laboratory and apparatus files. `meaning`: names the tools.
-template <class Fields>
-void read_tools(Fields& apparatus, std::string_view meaning, WallContact& tools) {
+void read_tools(auto& apparatus, std::string_view meaning, WallContact& tools) {
   apparatus.object({"tools", meaning}, Need::optional,
                    [&](auto& fields) { read_dimensions(fields, tools, surface_dimensions, Need::optional); });
 }

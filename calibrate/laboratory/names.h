@@ -47,8 +47,7 @@ inline constexpr Range not_below_zero{0, largest_quantity, false, true};
 inline constexpr Range above_zero{0, largest_quantity, true, true};
 inline constexpr Need required = Need::required;
 
-template <class Fields, class Model>
-void describe_bridge(Fields& fields, Model& bridge) {
+void describe_bridge(auto& fields, auto& bridge) {
   fields.choice({"shape", "of the force over the gap", "laws.schema.json#/properties/attraction"}, bridge.shape,
                 bridge_shapes, required);
   fields.choice({"formation", "a bridge forms when liquid shells touch (film), or grains (touch)"}, bridge.formation,
@@ -67,8 +66,7 @@ void describe_bridge(Fields& fields, Model& bridge) {
                 not_below_zero, Default{0.0});
 }
 
-template <class Fields, class Model>
-void describe_contact(Fields& fields, Model& contact) {
+void describe_contact(auto& fields, auto& contact) {
   fields.shared("contact");
   fields.number({"youngs_modulus_pa", "of the grains"}, contact.youngs_modulus_pa, above_zero, required);
   fields.number({"poissons_ratio", "of the grains"}, contact.poissons_ratio, not_below_zero, required);
@@ -95,8 +93,7 @@ void describe_contact(Fields& fields, Model& contact) {
                 [&](auto& inner) { describe_bridge(inner, contact.bridge); });
 }
 
-template <class Fields, class Wall>
-void describe_wall(Fields& fields, Wall& wall) {
+void describe_wall(auto& fields, auto& wall) {
   fields.shared("wall");
   fields.number({"youngs_modulus_pa", "of the wall"}, wall.youngs_modulus_pa, above_zero, required);
   fields.number({"poissons_ratio", "of the wall"}, wall.poissons_ratio, not_below_zero, required);

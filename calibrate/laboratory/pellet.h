@@ -23,8 +23,7 @@ inline constexpr std::string_view kind_of(const PelletCrush&) {
 }
 
 /// Keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres per second.
-template <class Fields>
-void describe_apparatus(Fields& apparatus, PelletCrush& test, Need need) {
+void describe_apparatus(auto& apparatus, PelletCrush& test, Need need) {
   read_dimensions(apparatus, test, pellet_dimensions, need);
   read_tools(apparatus, "the surface of die, punch, platen and floor", test.tools);
 }
@@ -33,8 +32,7 @@ std::vector<FilePlace> places_in_files(const PelletCrush&);
 /// Motion time of punch and platen.
 double moved_time_s(const PelletCrush& test);
 
-template <class Fields>
-void describe_test(Fields& fields, PelletCrush& test) {
+void describe_test(auto& fields, PelletCrush& test) {
   describe_dimensions(fields, test, pellet_dimensions);
   describe_specimen(fields, test);
   fields.object({"tools", "surface of all tools"}, required, [&](auto& wall) { describe_wall(wall, test.tools); });

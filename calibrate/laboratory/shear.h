@@ -23,8 +23,7 @@ inline constexpr std::string_view kind_of(const ShearCell&) {
 }
 
 /// Keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres per second.
-template <class Fields>
-void describe_apparatus(Fields& apparatus, ShearCell& test, Need need) {
+void describe_apparatus(auto& apparatus, ShearCell& test, Need need) {
   read_dimensions(apparatus, test, shear_dimensions, need);
   const auto ribs = [need](auto* own) {
     return [own, need](auto& fields) { read_dimensions(fields, *own, rib_dimensions, need); };
@@ -38,8 +37,7 @@ std::vector<FilePlace> places_in_files(const ShearCell&);
 /// Motion time of the base.
 double moved_time_s(const ShearCell& test);
 
-template <class Fields>
-void describe_test(Fields& fields, ShearCell& test) {
+void describe_test(auto& fields, ShearCell& test) {
   describe_dimensions(fields, test, shear_dimensions);
   const auto ribs = [](auto* own) { return [own](auto& inner) { describe_dimensions(inner, *own, rib_dimensions); }; };
   fields.object({"lid_ribs", "of the plate above"}, required, ribs(&test.lid_ribs));

@@ -108,8 +108,7 @@ std::vector<FilePlace> places_in_files(const SlumpTest&);
 double moved_time_s(const SlumpTest& test);
 
 /// In SI, with the unit in each key. Keys without a default are required.
-template <class Fields>
-void describe_test(Fields& fields, SlumpTest& test) {
+void describe_test(auto& fields, SlumpTest& test) {
   fields.object({"mould", "a frustum"}, required,
                 [&](auto& mould) { describe_dimensions(mould, test.mould, mould_dimensions); });
   describe_dimensions(fields, test, slump_dimensions);

@@ -190,8 +190,7 @@ class HeapDrawing {
   }
 
   /// Calls `draw(by, value, standard deviation)` for the measured and the simulated value of a reading.
-  template <class Draw>
-  void each_value(const std::string& name, const Draw& draw) const {
+  void each_value(const std::string& name, const auto& draw) const {
     if (const Measurement* one = measurement(name)) draw(DrawnBy::laboratory, one->value, one->standard_deviation);
     if (const auto mean = mean_of_runs(name)) draw(DrawnBy::simulation, *mean, 0.0);
   }

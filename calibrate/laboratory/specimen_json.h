@@ -13,8 +13,7 @@ namespace pastefit {
 // Common JSON of all kinds of tests, in SI, for an `ObjectReader`, an `ObjectWriter` and an `ObjectSchema`. The test's
 // `validate` checks ranges that depend on other numbers.
 
-template <class Fields, class Grains>
-void describe_grains(Fields& fields, Grains& grains) {
+void describe_grains(auto& fields, auto& grains) {
   fields.shared("grains");
   fields.choice({"distribution", "of the radii, as in laboratory files"}, grains.distribution, size_distributions,
                 required);
@@ -26,8 +25,7 @@ void describe_grains(Fields& fields, Grains& grains) {
 }
 
 /// Properties shared by tests of one material.
-template <class Fields, class Material>
-void describe_material(Fields& fields, Material& material) {
+void describe_material(auto& fields, auto& material) {
   fields.number({"bulk_density_kg_m3", "as in the laboratory file"}, material.bulk_density_kg_m3, above_zero, required);
   fields.object({"grains", "for which `contact` holds"}, required,
                 [&](auto& grains) { describe_grains(grains, material.grains); });
@@ -38,8 +36,7 @@ void describe_material(Fields& fields, Material& material) {
 inline constexpr std::array of_material{"bulk_density_kg_m3", "grains", "contact"};
 
 /// Everything in a `Specimen`.
-template <class Fields, class Specimen>
-void describe_specimen(Fields& fields, Specimen& specimen) {
+void describe_specimen(auto& fields, auto& specimen) {
   describe_material(fields, specimen);
   fields.integer({"packing_seed", "of the packing that is simulated if no other is asked for"}, specimen.packing_seed,
                  required);

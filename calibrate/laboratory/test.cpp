@@ -17,8 +17,7 @@ namespace {
 using nlohmann::json;
 
 /// Calls `visit(Kind{})` for every kind until one returns true.
-template <class Visitor>
-void each_kind(const Visitor& visit) {
+void each_kind(const auto& visit) {
   const auto all = [&]<std::size_t... row>(std::index_sequence<row...>) {
     (void)(visit(std::variant_alternative_t<row, Test>{}) || ...);
   };

@@ -44,22 +44,19 @@ constexpr std::array<GrainLength, 4> grain_lengths{
      {"smallest_mm", "least radius", &GrainSizes::smallest_m, false, true, true},
      {"largest_mm", "largest radius", &GrainSizes::largest_m, false, true, true}}};
 
-template <class Fields>
-void describe_file_provenance(Fields& fields, Provenance& provenance) {
+void describe_file_provenance(auto& fields, Provenance& provenance) {
   fields.text({"source", "who measured, where, when; or the publication"}, provenance.source, Need::required);
   fields.text({"licence", "licence of the data"}, provenance.licence, Need::optional);
   fields.text({"notes", "other information, e.g. what was assumed"}, provenance.notes, Need::optional);
   fields.flag({"twin", "true: simulated with known parameters, not measured"}, provenance.twin, Need::optional);
 }
 
-template <class Fields>
-void describe_density(Fields& material, Specimen& specimen) {
+void describe_density(auto& material, Specimen& specimen) {
   material.number({"bulk_density_kg_m3", "mass over volume of the filled vessel, voids included"},
                   specimen.bulk_density_kg_m3, bulk_density, Need::required);
 }
 
-template <class Fields>
-void describe_customary(Fields& reading, CustomaryReading& one, const Range& range) {
+void describe_customary(auto& reading, CustomaryReading& one, const Range& range) {
   reading.shared("reading");
   reading.number({"value", "usual, in the unit of the reading's key"}, one.value, range, Need::required);
   reading.number({"standard_deviation", "of one reading, in the same unit"}, one.standard_deviation,

@@ -78,8 +78,7 @@ std::string note_on_yield_stress(const Lab& lab) {
          (readings.empty() ? "no formula predicts a reading from it" : "a fluid with it would have " + readings);
 }
 
-template <class Fields>
-void describe_repeats(Fields& fields, Lab::Repeats& repeats) {
+void describe_repeats(auto& fields, Lab::Repeats& repeats) {
   fields.integer({"made", "number of heaps, including those that sheared off"}, repeats.made, 1, 1000, Need::required);
   fields.integer({"sheared", "number of heaps that sheared off and have no readings; less than made"}, repeats.sheared,
                  0, 1000, Need::required);

@@ -30,8 +30,7 @@ void read_parameter(ObjectReader& reader, const ParameterKind& kind, Parameter& 
   read_free(reader, range, parameter);
 }
 
-template <class Fields>
-void describe_choice(Fields& fields, ContactModel& laws) {
+void describe_choice(auto& fields, ContactModel& laws) {
   const Need optional = Need::optional;
   fields.choice({"normal", "law of the overlap; default hertz", "laws.schema.json#/properties/normal"}, laws.normal,
                 normal_laws, optional);

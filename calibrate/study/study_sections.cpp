@@ -12,8 +12,7 @@ namespace pastefit {
 
 namespace {
 
-template <class Fields>
-void describe_search_options(Fields& fields, SearchOptions& search) {
+void describe_search_options(auto& fields, SearchOptions& search) {
   constexpr int most = 1'000'000;
   fields.text({"strategy", "\"default\", or the name of an algorithm (calibrate/search/README.md)"}, search.strategy,
               Need::optional);

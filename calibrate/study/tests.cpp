@@ -21,8 +21,7 @@ constexpr Range weights{0, 1e6}, tolerances{1e-6, 1e6};
 /// Reads an object with numbers for some readings; `set` stores each in the reading's target. Readings that the
 /// apparatus has, but that were not measured, go to `not_measured`. If the laboratory file could not be read, all known
 /// readings are allowed.
-template <class Set>
-void read_numbers(ObjectReader& reader, StudyTest& test, const Range& range, Set set) {
+void read_numbers(ObjectReader& reader, StudyTest& test, const Range& range, auto set) {
   const Lab& lab = test.lab;
   std::vector<Target>& targets = test.targets;
   const bool unread = lab.measurements.empty();

@@ -44,8 +44,7 @@ struct LabReading {
 std::vector<StudyTest> read_tests(ObjectReader& document, const nlohmann::json& study, const LabReading& labs);
 
 /// Index of the test with this name, in a study or card. Error: no such test; the fault lists the names.
-template <class Tests>
-Result<std::size_t> place_of_test(const Tests& tests, const std::string& name) {
+Result<std::size_t> place_of_test(const auto& tests, const std::string& name) {
   std::vector<std::string> names;
   for (const auto& test : tests) {
     if (test.name == name) return names.size();
