@@ -316,15 +316,6 @@ const json* ObjectReader::find(std::string_view key, Need need) {
   return nullptr;
 }
 
-bool ObjectReader::is_object(const json& value) {
-  return value.is_object();
-}
-
-const json& ObjectReader::nothing() {
-  static const json object = json::object();
-  return object;
-}
-
 std::string ObjectReader::remedy_of(const json& value, const std::set<std::string, std::less<>>& keys) {
   if (keys.empty()) return "an object { ... }";
   if (keys.size() == 1 && value.is_number()) return "write {" + in_quotes(*keys.begin()) + ": " + value.dump() + "}";
@@ -362,13 +353,6 @@ std::optional<std::size_t> ObjectReader::word(std::string_view key, std::span<co
   fault(key, "is " + text_of(*value),
         (near ? "did you mean " + in_quotes(*near) + "? Known: " : "one of ") + listed(names));
   return std::nullopt;
-}
-
-bool ObjectReader::null(std::string_view key) {
-  const auto value = object_.find(key);
-  if (value == object_.end() || !value->is_null()) return false;
-  known_.emplace(key);
-  return true;
 }
 
 }  // namespace pastefit

@@ -28,8 +28,7 @@ std::optional<nlohmann::json> parse_json(std::string_view text, Faults& faults);
 std::optional<nlohmann::json> read_json(const std::filesystem::path& file, Faults& faults);
 
 /// Applies `from_json`, which returns a `Result`, to a file's content; its faults begin with the file name.
-template <class FromJson>
-auto read_file(const std::filesystem::path& file, const FromJson& from_json)
+auto read_file(const std::filesystem::path& file, const auto& from_json)
     -> decltype(from_json(std::declval<nlohmann::json&>())) {
   Faults faults;
   auto document = read_json(file, faults);
@@ -92,10 +91,7 @@ class ObjectReader {
   }
   /// Object derived on writing, unchecked on reading. `written()`: JSON to write, null for nothing. `body(fields,
   /// key)`: describes it to the schema.
-  template <class Written, class Body>
-  void derived_object(const Key& key, Written, Body) {
-    known(key);
-  }
+  void derived_object(const Key& key, auto, auto) { known(key); }
   /// Null, or an absent optional key, resets the target.
   bool nullable_number(const Key& key, std::optional<double>& target, const Range& range, Need need);
   bool integer(const Key& key, int& target, int smallest, int largest, Presence presence);
@@ -111,30 +107,70 @@ class ObjectReader {
   bool texts(const Key& key, std::vector<std::string>& target, Need need);
   /// List of integers from 0, exact up to 64 bits (seeds).
   bool integers(const Key& key, std::vector<std::uint64_t>& target, Need need);
-  template <class Target, class T, std::size_t N>
-  bool choice(const Key& key, Target& target, const std::array<Named<T>, N>& words, Presence presence);
+  template <class T, std::size_t N>
+  bool choice(const Key& key, auto& target, const std::array<Named<T>, N>& words, Presence presence) {
+    std::array<std::string_view, N> names;
+    for (std::size_t n = 0; n < N; ++n) names[n] = words[n].name;
+    const std::optional<std::size_t> found = word(key, names, presence);
+    if (found) target = words[*found].value;
+    return found.has_value();
+  }
   /// Calls `body(ObjectReader&)` for a nested object. `remedy`: advice for other values; default: the keys that `body`
   /// reads.
-  template <class Body>
-  bool object(const Key& key, Presence presence, Body body, std::string_view remedy = "");
+  bool object(const Key& key, Presence presence, auto body, std::string_view remedy = "") {
+    const nlohmann::json* value = find_object(key, presence, remedy, body);
+    if (!value) return false;
+    ObjectReader reader(*value, place(key), faults_);
+    body(reader);
+    return true;
+  }
   /// As `object`, into `target`. Null resets it; an absent optional key leaves it unchanged.
-  template <class T, class Body>
-  bool nullable_object(const Key& key, std::optional<T>& target, Need need, Body body);
+  template <class T>
+  bool nullable_object(const Key& key, std::optional<T>& target, Need need, auto body) {
+    if (const nlohmann::json* value = content(key); value && value->is_null()) {
+      known(key);
+      target.reset();
+      return true;
+    }
+    const auto probing = [&](ObjectReader& probe) {
+      T unused{};
+      body(probe, unused);
+    };
+    const nlohmann::json* found = find_object(key, need, "", probing, ", or null");
+    if (!found) return false;
+    if (!target) target.emplace();
+    ObjectReader reader(*found, place(key), faults_);
+    body(reader, *target);
+    return true;
+  }
   /// As `nullable_object`, for an optional key.
-  template <class T, class Body>
-  bool optional_object(const Key& key, std::optional<T>& target, Body body) {
+  template <class T>
+  bool optional_object(const Key& key, std::optional<T>& target, auto body) {
     return nullable_object(key, target, Need::optional, body);
   }
   /// List of objects, each described by `body(fields, one)`. A required list has at least one, an optional one is
   /// omitted if empty.
-  template <class T, class Body>
-  void list(const Key& key, std::vector<T>& target, Need need, Body body);
+  template <class T>
+  void list(const Key& key, std::vector<T>& target, Need need, auto body) {
+    for_each_object(key, need, [&](ObjectReader& entry) { body(entry, target.emplace_back()); });
+  }
   /// Object with arbitrary keys, each described by `body(fields, Key(one.*name), one)`.
-  template <class T, class Body>
-  bool entries(const Key& key, std::vector<T>& target, std::string T::*name, Presence presence, Body body);
+  template <class T>
+  bool entries(const Key& key, std::vector<T>& target, std::string T::*name, Presence presence, auto body) {
+    return object(key, presence, [&](ObjectReader& entries) {
+      for (const std::string& own : entries.keys()) {
+        T& one = target.emplace_back();
+        one.*name = own;
+        body(entries, Key(own), one);
+      }
+    });
+  }
   /// Object with some of these keys; `body` describes the field of each to `fields`.
-  template <class List, class Body>
-  bool known_entries(const Key& key, List& list, Need need, Body body);
+  bool known_entries(const Key& key, auto& list, Need need, auto body) {
+    return object(key, need, [&](ObjectReader& entries) {
+      for (auto& one : list) body(entries, one);
+    });
+  }
   /// Name of an object type that occurs several times; the schema defines it once.
   void shared(std::string_view) {}
   /// Reports a key that is valid elsewhere but not here.
@@ -151,17 +187,27 @@ class ObjectReader {
   void for_each_object(const Key& key, Need need, const std::function<void(ObjectReader&)>& body);
   /// Object at a key. Other values are a fault with `remedy`, or with the keys that `body` reads and `instead`, the
   /// alternatives.
-  template <class Body>
-  const nlohmann::json* find_object(std::string_view key, Need need, std::string_view remedy, const Body& body,
-                                    std::string_view instead = "");
+  const nlohmann::json* find_object(std::string_view key, Need need, std::string_view remedy, const auto& body,
+                                    std::string_view instead = "") {
+    const nlohmann::json* value = find(key, need);
+    if (!value || value->is_object()) return value;
+    std::string words(remedy);
+    if (words.empty()) {
+      static const nlohmann::json nothing = nlohmann::json::object();
+      const std::size_t before = faults_.size();
+      Faults of_missing_keys;
+      ObjectReader probe(nothing, "", of_missing_keys);
+      body(probe);
+      faults_.resize(before);  // discards faults that the body adds elsewhere
+      words = remedy_of(*value, probe.known_) + std::string(instead);
+    }
+    fault(key, "is " + text_of(*value), std::move(words));
+    return nullptr;
+  }
   /// Advice for a value that is not an object with these keys.
   static std::string remedy_of(const nlohmann::json& value, const std::set<std::string, std::less<>>& keys);
   /// Index of the word; a fault if there is none.
   std::optional<std::size_t> word(std::string_view key, std::span<const std::string_view> words, Need need);
-  static bool is_object(const nlohmann::json& value);
-  static const nlohmann::json& nothing();  ///< an object without keys
-  /// True if the key is present and null.
-  bool null(std::string_view key);
   bool check_number(std::string_view place, const nlohmann::json& value, const Range& range);
 
   const nlohmann::json& object_;
@@ -170,86 +216,8 @@ class ObjectReader {
   std::set<std::string, std::less<>> known_;
 };
 
-template <class Target, class T, std::size_t N>
-bool ObjectReader::choice(const Key& key, Target& target, const std::array<Named<T>, N>& words, Presence presence) {
-  std::array<std::string_view, N> names;
-  for (std::size_t n = 0; n < N; ++n) names[n] = words[n].name;
-  const std::optional<std::size_t> found = word(key, names, presence);
-  if (found) target = words[*found].value;
-  return found.has_value();
-}
-
-template <class Body>
-const nlohmann::json* ObjectReader::find_object(std::string_view key, Need need, std::string_view remedy,
-                                                const Body& body, std::string_view instead) {
-  const nlohmann::json* value = find(key, need);
-  if (!value || is_object(*value)) return value;
-  std::string words(remedy);
-  if (words.empty()) {
-    const std::size_t before = faults_.size();
-    Faults of_missing_keys;
-    ObjectReader probe(nothing(), "", of_missing_keys);
-    body(probe);
-    faults_.resize(before);  // discards faults that the body adds elsewhere
-    words = remedy_of(*value, probe.known_) + std::string(instead);
-  }
-  fault(key, "is " + text_of(*value), std::move(words));
-  return nullptr;
-}
-
-template <class Body>
-bool ObjectReader::object(const Key& key, Presence presence, Body body, std::string_view remedy) {
-  const nlohmann::json* value = find_object(key, presence, remedy, body);
-  if (!value) return false;
-  ObjectReader reader(*value, place(key), faults_);
-  body(reader);
-  return true;
-}
-
-template <class T, class Body>
-bool ObjectReader::nullable_object(const Key& key, std::optional<T>& target, Need need, Body body) {
-  if (null(key)) {
-    target.reset();
-    return true;
-  }
-  const auto probing = [&](ObjectReader& probe) {
-    T unused{};
-    body(probe, unused);
-  };
-  const nlohmann::json* found = find_object(key, need, "", probing, ", or null");
-  if (!found) return false;
-  if (!target) target.emplace();
-  ObjectReader reader(*found, place(key), faults_);
-  body(reader, *target);
-  return true;
-}
-
-template <class T, class Body>
-void ObjectReader::list(const Key& key, std::vector<T>& target, Need need, Body body) {
-  for_each_object(key, need, [&](ObjectReader& entry) { body(entry, target.emplace_back()); });
-}
-
-template <class T, class Body>
-bool ObjectReader::entries(const Key& key, std::vector<T>& target, std::string T::*name, Presence presence, Body body) {
-  return object(key, presence, [&](ObjectReader& entries) {
-    for (const std::string& own : entries.keys()) {
-      T& one = target.emplace_back();
-      one.*name = own;
-      body(entries, Key(own), one);
-    }
-  });
-}
-
-template <class List, class Body>
-bool ObjectReader::known_entries(const Key& key, List& list, Need need, Body body) {
-  return object(key, need, [&](ObjectReader& entries) {
-    for (auto& one : list) body(entries, one);
-  });
-}
-
 /// `entries` whose values are objects, each described by `body(fields, one)`.
-template <class Fields, class List, class Name, class When, class Body>
-void named_objects(Fields& fields, const Key& key, List& list, Name name, When when, Body body) {
+void named_objects(auto& fields, const Key& key, auto& list, auto name, auto when, auto body) {
   fields.entries(key, list, name, when, [&](auto& entries, const Key& own, auto& one) {
     entries.object(own, Need::required, [&](auto& entry) { body(entry, one); });
   });
