@@ -110,12 +110,6 @@ const json* ObjectReader::content(std::string_view key) const {
   return value == object_.end() ? nullptr : &*value;
 }
 
-void ObjectReader::former(std::string_view key, std::string instead) {
-  if (!has(key)) return;
-  known_.insert(std::string(key));
-  fault(key, "is a key of earlier programs", std::move(instead));
-}
-
 std::string ObjectReader::place(std::string_view key) const {
   return joined(place_, key);
 }
@@ -273,13 +267,6 @@ bool ObjectReader::texts(const Key& key, std::vector<std::string>& target, Need 
 bool ObjectReader::optional_number(const Key& key, std::optional<double>& target, const Range& range) {
   double value = 0;
   const bool there = number(key, value, range, Need::optional);
-  if (there) target = value;
-  return there;
-}
-
-bool ObjectReader::optional_flag(const Key& key, std::optional<bool>& target) {
-  bool value = false;
-  const bool there = flag(key, value, Need::optional);
   if (there) target = value;
   return there;
 }

@@ -68,8 +68,6 @@ class ObjectReader {
   std::vector<std::string> keys() const;
   /// Value of a key; null if absent.
   const nlohmann::json* content(std::string_view key) const;
-  /// Reports a key of earlier program versions, with its replacement.
-  void former(std::string_view key, std::string instead);
   /// Marks a key as read elsewhere.
   void known(std::string_view key) { known_.emplace(key); }
   Faults& faults() { return faults_; }
@@ -83,7 +81,6 @@ class ObjectReader {
   bool number(const Key& key, double& target, const Range& range, Presence presence, double per_si = 1);
   /// Optional key; written if there is a value.
   bool optional_number(const Key& key, std::optional<double>& target, const Range& range);
-  bool optional_flag(const Key& key, std::optional<bool>& target);
   /// Derived on writing; checked, but not stored.
   void derived_number(const Key& key, const std::optional<double>&, const Range& range) {
     double unused = 0;
@@ -165,15 +162,9 @@ class ObjectReader {
       }
     });
   }
-  /// Object with some of these keys; `body` describes the field of each to `fields`.
-  bool known_entries(const Key& key, auto& list, Need need, auto body) {
-    return object(key, need, [&](ObjectReader& entries) {
-      for (auto& one : list) body(entries, one);
-    });
-  }
   /// Name of an object type that occurs several times; the schema defines it once.
   void shared(std::string_view) {}
-  /// Reports a key that is valid elsewhere but not here.
+  /// Reports a key that is valid elsewhere, or was in earlier versions, but not here.
   void refuse(std::string_view key, std::string what, std::string remedy);
 
  private:

@@ -42,7 +42,6 @@ class ObjectSchema {
   /// Text with a fixed value.
   void constant(const Key& key, std::string_view value, Presence presence) { put(key, {{"const", value}}, presence); }
   void flag(const Key& key, bool, Presence presence) { put(key, {{"type", "boolean"}}, presence); }
-  void optional_flag(const Key& key, const std::optional<bool>&) { flag(key, false, Need::optional); }
   void numbers(const Key& key, const std::vector<double>&, const Range& range, Need need, std::size_t least,
                std::size_t most = 0);
   void integers(const Key& key, const std::vector<std::uint64_t>&, Need need) {
@@ -84,12 +83,8 @@ class ObjectSchema {
     const Json entry = described([&](ObjectSchema& inner) { body(inner, Key("NAME"), any); });
     put(key, {{"type", "object"}, {"additionalProperties", entry.at("properties").at("NAME")}}, presence);
   }
-  void known_entries(const Key& key, auto& list, Need need, auto body) {
-    const Json entries = described([&](ObjectSchema& inner) {
-      for (auto& one : list) body(inner, one);
-    });
-    put_known(key, entries.at("properties"), need);
-  }
+  /// Object with some of the keys that `body` describes, all alike.
+  void known_entries(const Key& key, Need need, auto body) { put_known(key, described(body).at("properties"), need); }
   /// Object of numbers with arbitrary keys.
   void any_numbers(const Key& key, const Range& range) {
     put(key, {{"type", "object"}, {"additionalProperties", number_in(range)}}, Need::optional);

@@ -33,9 +33,6 @@ class BasicObjectWriter {
   void integer(const Key& key, int value, int, int, auto when) { put(key, value, when); }
   void text(const Key& key, std::string_view value, auto when) { put(key, value, when); }
   void flag(const Key& key, bool value, auto when) { put(key, value, when); }
-  void optional_flag(const Key& key, const std::optional<bool>& value) {
-    if (value) at(key) = *value;
-  }
   void numbers(const Key& key, const std::vector<double>& value, const Range&, Need, std::size_t, std::size_t = 0) {
     at(key) = value;
   }
@@ -85,11 +82,6 @@ class BasicObjectWriter {
   void entries(const Key& key, const std::vector<T>& value, std::string T::*name, When when, Body body) {
     object(key, when, [&](BasicObjectWriter& writer) {
       for (const T& one : value) body(writer, Key(one.*name), one);
-    });
-  }
-  void known_entries(const Key& key, const auto& list, Need need, auto body) {
-    object(key, need, [&](BasicObjectWriter& writer) {
-      for (const auto& one : list) body(writer, one);
     });
   }
   void shared(std::string_view) {}

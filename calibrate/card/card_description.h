@@ -160,8 +160,11 @@ void describe_card_test(Fields& fields, Of& test, const Whole& material, std::si
                      describe_reading(reading, one, simulated_range(name, of_ranges), packings);
                    });
                  });
-  fields.optional_flag({"within_noise", "of a hold-out: every reading that counts lies within its band"},
-                       test.within_noise);
+  bool within_noise = test.within_noise.value_or(false);
+  fields.flag({"within_noise", "of a hold-out: every reading that counts lies within its band"}, within_noise,
+              WrittenIf{test.within_noise.has_value()});
+  if constexpr (Fields::reads)
+    if (fields.has("within_noise")) test.within_noise = within_noise;
   fields.object({"baseline", "what one engine read off the test in each packing; checks compare with it"},
                 WrittenIf{!test.baseline.runs.empty()},
                 [&](auto& baseline) { describe_baseline(baseline, test.baseline, of_ranges); });
@@ -178,23 +181,29 @@ void describe_parameters(Fields& fields, Of& parameters, const Card& card) {
                                   WrittenIf{has_parameter(card, one.name)});
                   }
                 });
-  fields.known_entries(
-      {"free", "the parameters that were fitted, with their bounds"}, parameters, required, [&](auto& free, auto& one) {
-        const auto bounds = [&](auto& own) {
-          own.number({"lower", "bound"}, one.lower, any, required);
-          own.number({"upper", "bound"}, one.upper, any, required);
-          own.choice({"scale", "on which it was searched"}, one.scale, scales, required);
-          own.optional_object({"prior", "what was known beforehand"}, one.prior, [](auto& prior, auto& known) {
-            prior.number({"value", "mean"}, known.value, any, required);
-            prior.number({"standard_deviation", "how well it was known"}, known.standard_deviation, not_negative,
-                         required);
-          });
-        };
-        if constexpr (Fields::reads)
-          one.free = free.object(one.name, Need::optional, bounds);
-        else
-          free.object(one.name, WrittenIf{one.free && has_parameter(card, one.name)}, bounds);
-      });
+  const auto describe_free = [&](auto& free) {
+    for (auto& one : parameters) {
+      const auto bounds = [&](auto& own) {
+        own.number({"lower", "bound"}, one.lower, any, required);
+        own.number({"upper", "bound"}, one.upper, any, required);
+        own.choice({"scale", "on which it was searched"}, one.scale, scales, required);
+        own.optional_object({"prior", "what was known beforehand"}, one.prior, [](auto& prior, auto& known) {
+          prior.number({"value", "mean"}, known.value, any, required);
+          prior.number({"standard_deviation", "how well it was known"}, known.standard_deviation, not_negative,
+                       required);
+        });
+      };
+      if constexpr (Fields::reads)
+        one.free = free.object(one.name, Need::optional, bounds);
+      else
+        free.object(one.name, WrittenIf{one.free && has_parameter(card, one.name)}, bounds);
+    }
+  };
+  const Key key("free", "the parameters that were fitted, with their bounds");
+  if constexpr (requires { fields.known_entries(key, required, describe_free); })
+    fields.known_entries(key, required, describe_free);
+  else
+    fields.object(key, required, describe_free);
 }
 
 void describe_confirmation(auto& fields, auto& confirmation) {

@@ -71,7 +71,7 @@ std::vector<Parameter> read_parameters(ObjectReader& document, const ContactMode
     parameters.push_back({std::string(kind.name), false, kind.default_value, 0, 0, kind.scale});
   document.object("parameters", Need::required, [&](ObjectReader& reader) {
     bool any_free = false;
-    reader.former("offset_ratio",
+    reader.refuse("offset_ratio", "is a key of earlier programs",
                   "\"formation_ratio\": 2 offset_ratio/rupture_gap_ratio, at most 1; free: {\"free\": [0, 1]}");
     for (Parameter& parameter : parameters) {
       const ParameterKind& kind = parameter_kinds()[static_cast<std::size_t>(&parameter - parameters.data())];

@@ -48,7 +48,7 @@ void describe_search_options(auto& fields, SearchOptions& search) {
 
 void read_search_options(ObjectReader& document, int fitted_tests, SearchOptions& search) {
   document.object("search", Need::optional, [&](ObjectReader& reader) {
-    reader.former("lag", "max_pending");
+    reader.refuse("lag", "is a key of earlier programs", "max_pending");
     describe_search_options(reader, search);
     const int least = (search.packings + search.confirmation_packings) * fitted_tests;
     if (search.budget_simulations < least)
