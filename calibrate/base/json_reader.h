@@ -73,7 +73,6 @@ class ObjectReader {
   Faults& faults() { return faults_; }
   /// Path of a key of this object.
   std::string place(std::string_view key) const;
-  /// Path of this object.
   const std::string& place() const { return place_; }
   void fault(std::string_view key, std::string what, std::string remedy);
 
@@ -140,7 +139,6 @@ class ObjectReader {
     body(reader, *target);
     return true;
   }
-  /// As `nullable_object`, for an optional key.
   template <class T>
   bool optional_object(const Key& key, std::optional<T>& target, auto body) {
     return nullable_object(key, target, Need::optional, body);

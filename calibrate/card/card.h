@@ -57,7 +57,6 @@ struct Material {
 /// Values of its parameters, in their fixed order.
 std::vector<double> values_of(const Material& material);
 
-/// Test of the material, with its readings.
 struct CardTest {
   std::string name;       ///< unique; empty for a single test
   bool hold_out = false;  ///< predicted, not fitted
@@ -84,7 +83,6 @@ std::string heading_of(const CardTest& test);
 /// card's 8 packings" if the other heaps are rejected, or "one packing, error unknown"; empty if the card has none.
 std::string packings_in_words(const Card& card, const CardTest& test);
 
-/// Confirmation of the calibrated material.
 struct Confirmation {
   std::vector<std::uint64_t> packings;  ///< seeds; the simulated readings are means over these packings
   bool fresh = false;                   ///< not used by the search; false: stopped before a confirmation
@@ -117,7 +115,6 @@ struct CardProvenance {
 
 /// Inference of the fitted parameters from the measurements; all parts may be empty.
 struct CardInference {
-  /// Interval of a parameter, given the readings.
   struct Interval {
     std::string parameter;
     double lower = 0, upper = 0;
@@ -127,7 +124,6 @@ struct CardInference {
     std::string first, second;
     double value = 0;
   };
-  /// Parameter that the readings do not identify.
   struct NotIdentified {
     std::string parameter;
     std::string reason;  ///< text for the user
@@ -215,7 +211,6 @@ struct Card {
 /// Title of the card; begins with `interpolation_in_words` if interpolated.
 std::string title_of(const Card& card);
 
-/// Unit of the card's error in messages.
 ErrorUnit error_unit_of(const Card& card);
 
 /// Ends of an interval that are bounds of the study, not set by the readings.

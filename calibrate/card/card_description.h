@@ -269,7 +269,6 @@ void describe_conditions(auto& fields, auto& conditions) {
       });
 }
 
-/// Correlations of one parameter.
 struct Row {
   std::string first;
   std::vector<CardInference::Correlation> pairs;
@@ -363,7 +362,6 @@ void describe_interpolation(auto& fields, auto& one) {
   fields.texts({"studies", "names of those whose materials it lies between"}, one.studies, required);
 }
 
-/// All fields except the format.
 template <class Fields, class Of>
 void describe_card(Fields& fields, Of& card) {
   fields.text({"title", "title, one line"}, card.title, required);

@@ -12,7 +12,6 @@
 
 namespace pastefit {
 
-/// A test that can be simulated.
 using Scene = std::variant<Test, Impact>;
 
 /// Simulates a scene. Requirement: its `validate` is empty.

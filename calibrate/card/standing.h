@@ -31,7 +31,6 @@ std::string cause_unconfirmed(const Card& card);
 /// "NOT CONFIRMED: " and the cause: first line of all output of an unconfirmed material; empty for a confirmed card.
 std::string unconfirmed_line(const Card& card);
 
-/// Fitted parameter at a bound of its study.
 struct AtBound {
   std::string parameter;
   double value = 0;

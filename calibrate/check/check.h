@@ -29,7 +29,6 @@ struct CheckOptions {
   int threads = 0;            ///< simulations at a time; 0: one for each core
 };
 
-/// Verdict on a card.
 enum class CheckVerdict { agrees, disagrees, not_checked };
 std::string_view name_of(CheckVerdict verdict);  ///< "agrees", "disagrees", "not checked"
 

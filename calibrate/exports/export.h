@@ -48,7 +48,6 @@ struct ExportScene {
   const ContactModel& contact() const { return specimen_of(test).contact; }
   const GrainSizes& grains() const { return specimen_of(test).grains; }
   double radius_m() const { return grains().radius_m; }
-  /// Two grains of mean radius.
   GrainPair mean_pair() const { return {radius_m(), radius_m(), radius_m()}; }
 };
 

@@ -44,7 +44,6 @@ struct DrawnBand {
   std::vector<std::array<double, 3>> points;
 };
 
-/// Dimension line with two arrows.
 struct DrawnLength {
   std::string reading;
   DrawnBy by = DrawnBy::laboratory;

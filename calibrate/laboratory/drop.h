@@ -24,7 +24,6 @@ inline constexpr std::string_view kind_of(const DropTest&) {
 
 double grains_needed(const DropTest& test);
 
-/// Keys of "apparatus" in laboratory and apparatus files: millimetres and degrees.
 void describe_apparatus(auto& apparatus, DropTest& test, Need need) {
   read_dimensions(apparatus, test, drop_dimensions, need);
 }

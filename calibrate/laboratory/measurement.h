@@ -21,7 +21,6 @@ struct ReadingCheck {
   std::vector<std::string> notes;   ///< the same of what is usual, e.g. the shape of the heap
   Faults faults;                    ///< contradictions between readings, or with the apparatus, beyond their deviations
 
-  /// Doubts and notes.
   std::vector<std::string> remarks() const {
     std::vector<std::string> all = doubts;
     all.insert(all.end(), notes.begin(), notes.end());

@@ -31,7 +31,6 @@ inline constexpr std::array<Named<BridgeFormation>, 2> bridge_formations{
 inline constexpr std::array<Named<FrictionBasis>, 3> friction_bases{
     {{"elastic", FrictionBasis::elastic}, {"total", FrictionBasis::total}, {"net", FrictionBasis::net}}};
 
-/// Word for a choice.
 template <class T, std::size_t N>
 std::string word_of(T value, const std::array<Named<T>, N>& words) {
   for (const auto& word : words)

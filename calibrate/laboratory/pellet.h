@@ -22,14 +22,12 @@ inline constexpr std::string_view kind_of(const PelletCrush&) {
   return "pellet";
 }
 
-/// Keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres per second.
 void describe_apparatus(auto& apparatus, PelletCrush& test, Need need) {
   read_dimensions(apparatus, test, pellet_dimensions, need);
   read_tools(apparatus, "the surface of die, punch, platen and floor", test.tools);
 }
 std::vector<FilePlace> places_in_files(const PelletCrush&);
 
-/// Motion time of punch and platen.
 double moved_time_s(const PelletCrush& test);
 
 void describe_test(auto& fields, PelletCrush& test) {

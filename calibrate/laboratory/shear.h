@@ -22,7 +22,6 @@ inline constexpr std::string_view kind_of(const ShearCell&) {
   return "shear";
 }
 
-/// Keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres per second.
 void describe_apparatus(auto& apparatus, ShearCell& test, Need need) {
   read_dimensions(apparatus, test, shear_dimensions, need);
   const auto ribs = [need](auto* own) {
@@ -34,7 +33,6 @@ void describe_apparatus(auto& apparatus, ShearCell& test, Need need) {
 }
 std::vector<FilePlace> places_in_files(const ShearCell&);
 
-/// Motion time of the base.
 double moved_time_s(const ShearCell& test);
 
 void describe_test(auto& fields, ShearCell& test) {

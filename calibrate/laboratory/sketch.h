@@ -14,7 +14,6 @@ struct Sketch {
   std::vector<std::array<double, 2>> points;
 };
 
-/// Makes the thumbnail of one simulation.
 class Sketcher {
  public:
   /// Takes a snapshot; cheap, because most are skipped.

@@ -40,7 +40,6 @@ inline constexpr std::array<Named<HeightReading>, 2> height_readings{
 inline constexpr std::array<Named<TableMotion>, 2> table_motions{
     {{"hinged", TableMotion::hinged}, {"vertical", TableMotion::vertical}}};
 
-/// Keys of "apparatus" in laboratory and apparatus files, in millimetres.
 template <class Fields>
 void describe_apparatus(Fields& apparatus, SlumpTest& test, Need need) {
   apparatus.object({"mould", "a frustum, open above and below"}, need,
@@ -94,17 +93,12 @@ void describe_apparatus(Fields& apparatus, SlumpTest& test, Need need) {
   });
 }
 
-/// Reads the measured outline from which the distance is a reading of this kind.
 void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test);
 
-/// Enables a measured reading of this kind (`ReadingKind::on_request`) with default settings, unless the apparatus
-/// gives them.
 void ask_for(SlumpTest& test, const ReadingKind& kind);
 
-/// Paths of the apparatus in `validate`, and their places in laboratory and apparatus files.
 std::vector<FilePlace> places_in_files(const SlumpTest&);
 
-/// Motion time of the mould until it is off the heap.
 double moved_time_s(const SlumpTest& test);
 
 /// In SI, with the unit in each key. Keys without a default are required.
@@ -188,7 +182,6 @@ std::optional<double> rejection_index(const SlumpTest& test, const Readings& run
 
 std::string_view rejected_runs(const SlumpTest& test);
 
-/// One-line remark on sheared-off heaps among these runs; may be empty.
 std::string remarks_on(const SlumpTest& test, std::span<const Readings> runs);
 
 /// Adds a fault for each outline or spread curve in a frame or unit other than that of files: measured from a picture's

@@ -32,7 +32,6 @@ void describe_material(auto& fields, auto& material) {
   fields.object({"contact", "the laws in SI, to type into another program"}, required,
                 [&](auto& contact) { describe_contact(contact, material.contact); });
 }
-/// Keys of `describe_material`.
 inline constexpr std::array of_material{"bulk_density_kg_m3", "grains", "contact"};
 
 /// Everything in a `Specimen`.

@@ -44,7 +44,6 @@ std::string note_on_preset(const Apparatus& preset);
 /// The preset's caution; empty if the test has readings that the preset's own apparatus does not have.
 std::string caution_of(const Apparatus& preset, const Test& test);
 
-/// Names of the presets available to a file in `folder`.
 std::vector<std::string> preset_names(const std::filesystem::path& folder);
 
 /// Finds a preset by its name in a file in `folder`. Errors: no such preset, or a faulty one.

@@ -20,7 +20,6 @@ class Questions {
 
   /// Reports a suspicious value. `what`: end of a sentence about the place. `remedy`: what to do if it is a slip.
   void ask(const std::string& place, std::string what, std::string remedy);
-  /// Adds a note that needs no confirmation.
   void note(const std::string& place, std::string what) { notes_.push_back(place + " " + std::move(what)); }
 
   /// One sentence per note, without a full stop.

@@ -63,7 +63,6 @@ Fault surface_of_no_test(std::string place, std::string_view name);
 /// Fault of a given parameter that no law of the contact uses. Requirement: `has_parameter` is false.
 Fault foreign_parameter(const ContactModel& laws, std::string place, std::string_view name);
 
-/// Number of free parameters of a study.
 int free_count(const Study& study);
 
 /// Value of a free parameter at a coordinate in [0, 1] between its bounds, on its scale.
@@ -95,7 +94,6 @@ Test with_default_contact(Test test);
 
 Test test_with(Test test, std::span<const double> values, std::uint64_t packing_seed);
 
-/// Names of the scales in files.
 inline constexpr std::array<Named<Scale>, 2> scales{{{"linear", Scale::linear}, {"log", Scale::logarithmic}}};
 
 /// {"name", "free"}, with {"lower", "upper", "scale"} of a free parameter or {"value"} of a fixed one, and its "prior".

@@ -19,7 +19,6 @@ nlohmann::ordered_json laws_schema();
 // Parts of the schemas, each defined beside its reader.
 
 void tell_provenance(ObjectSchema& document);
-/// "test" and "apparatus".
 void tell_test(ObjectSchema& document, bool presets);
 void tell_grains(ObjectSchema& document, Need need);
 void tell_density(ObjectSchema& material);

@@ -34,7 +34,6 @@ struct Sheet {
   std::vector<std::string> confirmed;  ///< places of suspicious values that are correct
 };
 
-/// Text of a laboratory file and of its study.
 struct StartingFiles {
   std::string lab, study;
 };

@@ -72,7 +72,6 @@ struct Parameter {
   bool stated = false;                        ///< given in the study; otherwise `value` is the default
 };
 
-/// Weight and tolerance of one measurement.
 struct Target {
   std::string reading;
   double weight = 1;                               ///< in the fit; 0: reported, not fitted

@@ -43,7 +43,6 @@ std::span<const TargetLaws> target_laws();
 /// Laws of a target. `law`: word of the starting laws; empty: the target's default. Nothing if it has none.
 std::optional<TargetLaws> laws_for(std::string_view target, std::string_view law = "");
 
-/// Fault if `laws_for` finds nothing.
 Fault no_such_laws(std::string_view target, std::string_view law);
 
 std::string names_of_targets();

@@ -12,7 +12,6 @@
 
 namespace pastefit {
 
-/// How a check ended.
 enum class CaseVerdict {
   pass,
   known,  ///< fails for a reason documented in its file
