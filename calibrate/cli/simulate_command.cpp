@@ -227,11 +227,11 @@ class SingleSimulation {
 
   void open_folder() {
     if (options_.out.empty()) return;
-    std::vector<std::string> results = RunPictures::index_names(scene_);
+    std::vector<std::string> results = RunPictures::index_names();
     results.insert(results.begin(), {kResult, kCurve});
     folder_ = value_or_throw(OutputFolder::open(
         options_.out, results, options_.force ? EarlierResult::replace : EarlierResult::refuse, kSpace));
-    if (options_.vtk_interval_s) pictures_.emplace(options_.out, scene_);
+    if (options_.vtk_interval_s) pictures_.emplace(options_.out);
   }
 
   bool watch(const Snapshot& snapshot) {

@@ -12,36 +12,32 @@ namespace {
 /// Layers of a picture, one series each: suffixes of the name of the grains' series.
 constexpr std::array<std::string_view, 3> kLayers{"", "-links", "-walls"};
 
-std::vector<std::string> names_of_stages(const Scene& scene) {
-  const auto* test = std::get_if<Test>(&scene);
-  if (!test) return {"grains"};
-  const auto names = series_of(*test);
-  return {names.begin(), names.end()};
-}
+/// One series each, for a clock of its own. A run has those of the stages that it comes to.
+constexpr std::array<std::string_view, 3> kStages{"filling", "grains", "grains-second-drop"};
 
-std::size_t stage_of(const Scene& scene, const Snapshot& snapshot) {
-  const auto* test = std::get_if<Test>(&scene);
-  return test ? series_at(*test, snapshot) : 0;
+std::size_t stage_of(const Snapshot& snapshot) {
+  return snapshot.phase.starts_with("fill.") ? 0 : static_cast<std::size_t>(snapshot.drop) + 1;
 }
 
 }  // namespace
 
-RunPictures::RunPictures(const std::filesystem::path& folder, const Scene& scene) : scene_(scene) {
-  for (const std::string& name : names_of_stages(scene)) {
+RunPictures::RunPictures(const std::filesystem::path& folder) {
+  for (const std::string_view name : kStages) {
     Stage& stage = stages_.emplace_back();
-    for (const std::string_view layer : kLayers) stage.layers.emplace_back(folder, name + std::string(layer));
+    for (const std::string_view layer : kLayers)
+      stage.layers.emplace_back(folder, std::string(name) + std::string(layer));
   }
 }
 
-std::vector<std::string> RunPictures::index_names(const Scene& scene) {
+std::vector<std::string> RunPictures::index_names() {
   std::vector<std::string> names;
-  for (const std::string& name : names_of_stages(scene))
-    for (const std::string_view layer : kLayers) names.push_back(name + std::string(layer) + ".pvd");
+  for (const std::string_view name : kStages)
+    for (const std::string_view layer : kLayers) names.push_back(std::string(name) + std::string(layer) + ".pvd");
   return names;
 }
 
 Faults RunPictures::add(const Snapshot& snapshot) {
-  Stage& stage = stages_.at(stage_of(scene_, snapshot));
+  Stage& stage = stages_.at(stage_of(snapshot));
   // A stage may consist of several consecutive runs.
   if (snapshot.time_s < stage.last_s) stage.earlier_s += stage.last_s;
   stage.last_s = snapshot.time_s;

@@ -11,14 +11,14 @@
 namespace pastefit {
 
 /// ParaView pictures of a run: grains, links and walls. A test has one series per stage, whose clock starts at the time
-/// of its first snapshot; an impact has one series.
+/// of its first snapshot; an impact has one stage.
 class RunPictures {
  public:
-  /// `scene` must outlive the pictures. Writes nothing yet.
-  RunPictures(const std::filesystem::path& folder, const Scene& scene);
+  /// Writes nothing yet.
+  explicit RunPictures(const std::filesystem::path& folder);
 
   /// Names of the index files of all possible series.
-  static std::vector<std::string> index_names(const Scene& scene);
+  static std::vector<std::string> index_names();
 
   /// Writes the pictures of a snapshot. Errors: a file cannot be written.
   Faults add(const Snapshot& snapshot);
@@ -33,7 +33,6 @@ class RunPictures {
     bool begun = false;
   };
 
-  const Scene& scene_;
   std::vector<Stage> stages_;
 };
 

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
@@ -20,12 +18,6 @@
 #include "core/step/run.h"
 
 namespace pastefit {
-
-/// Measured outline that can be copied into a laboratory file.
-struct NamedOutline {
-  std::string_view name;  ///< the stage of the test, e.g. "step1"
-  Outline outline;
-};
 
 /// Size in a test, in the unit of its key, with the usual range. The program asks about values far outside.
 struct Experience {
@@ -93,23 +85,8 @@ inline std::string_view why_of_that_size(const Specimen&) {
   return {};
 }
 
-/// Names of the picture series of a run; `series_at`: index of the series that a snapshot belongs to.
-inline std::span<const std::string_view> series_of(const Specimen&) {
-  static constexpr std::array<std::string_view, 1> only{"grains"};
-  return only;
-}
-
-inline std::size_t series_at(const Specimen&, const Snapshot&) {
-  return 0;
-}
-
 /// Outline of the heap in this snapshot, from the side; nothing if there is none, e.g. during filling.
 inline std::optional<Outline> heap_at(const Specimen&, const Snapshot&) {
-  return std::nullopt;
-}
-
-/// Outline from the side at times worth drawing; a later one replaces an earlier one of the same name.
-inline std::optional<NamedOutline> outline_at(const Specimen&, const Snapshot&) {
   return std::nullopt;
 }
 

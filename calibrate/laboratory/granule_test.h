@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
 #include <concepts>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,18 +23,6 @@ concept GranuleTest = std::same_as<T, PelletCrush> || std::same_as<T, ShearCell>
 template <GranuleTest T>
 double grains_needed(const T& test) {
   return poured_grains(test);
-}
-
-/// Filling, and the rest of the test, each with its own clock.
-template <GranuleTest T>
-std::span<const std::string_view> series_of(const T&) {
-  static constexpr std::array<std::string_view, 2> both{"filling", "grains"};
-  return both;
-}
-
-template <GranuleTest T>
-std::size_t series_at(const T&, const Snapshot& snapshot) {
-  return snapshot.phase.starts_with("fill.") ? 0 : 1;
 }
 
 /// Surface of the tools in laboratory and apparatus files. `meaning`: names the tools.

@@ -1,7 +1,6 @@
 #include "calibrate/laboratory/slump.h"
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/statistics.h"
@@ -14,7 +13,6 @@ namespace pastefit {
 namespace {
 
 constexpr double diameter_mm = 2000;  // millimetres of diameter per metre of radius
-constexpr std::array<std::string_view, 3> series{"filling", "grains", "grains-second-drop"};
 
 double largest_pressure_pa(const SlumpTest& test) {
   return test.bulk_density_kg_m3 * kGravity * test.mould.height_m;
@@ -108,26 +106,10 @@ std::optional<double> grain_density_of(const SlumpTest& test, const Readings& me
   return solid ? std::optional(test.bulk_density_kg_m3 / *solid) : std::nullopt;
 }
 
-std::span<const std::string_view> series_of(const SlumpTest&) {
-  return series;
-}
-
-std::size_t series_at(const SlumpTest&, const Snapshot& snapshot) {
-  return snapshot.phase.starts_with("fill.") ? 0 : static_cast<std::size_t>(snapshot.drop) + 1;
-}
-
 std::optional<Outline> heap_at(const SlumpTest& test, const Snapshot& snapshot) {
   const bool stands = snapshot.phase.starts_with("step") || snapshot.phase.find("drops.") != snapshot.phase.npos;
   if (snapshot.drop > 0 || !stands) return std::nullopt;
   return outline(on_table(snapshot.world->particles), test.grains.radius_m);
-}
-
-std::optional<NamedOutline> outline_at(const SlumpTest& test, const Snapshot& snapshot) {
-  constexpr std::string_view rest = ".rest";
-  for (const std::string_view stage : {"step1", "step2", "after_drops"})
-    if (snapshot.drop == 0 && snapshot.phase.starts_with(stage) && snapshot.phase.substr(stage.size()) == rest)
-      return NamedOutline{stage, outline(on_table(snapshot.world->particles), test.grains.radius_m)};
-  return std::nullopt;
 }
 
 double default_tolerance(const SlumpTest& test, const Measurement& measured) {

@@ -145,15 +145,8 @@ SlumpTest default_test(const SlumpTest&);
 /// Density of a grain for which the mould has the measured bulk density.
 std::optional<double> grain_density_of(const SlumpTest& test, const Readings& means);
 
-/// Filling of the mould, test, and second drop of its heap, each with its own clock.
-std::span<const std::string_view> series_of(const SlumpTest& test);
-std::size_t series_at(const SlumpTest& test, const Snapshot& snapshot);
-
 /// Nothing from the second drop of one heap on (`Snapshot::drop` > 0).
 std::optional<Outline> heap_at(const SlumpTest& test, const Snapshot& snapshot);
-
-/// The heap at rest after each step, for comparison with a photograph.
-std::optional<NamedOutline> outline_at(const SlumpTest& test, const Snapshot& snapshot);
 
 /// Side view of the heap after each step, in millimetres (calibrate/laboratory/slump_drawing.cpp).
 std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun> runs,

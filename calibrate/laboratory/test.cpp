@@ -30,6 +30,13 @@ void read_apparatus(ObjectReader& apparatus, Test& test, Need need) {
   std::visit([&](auto& one) { describe_apparatus(apparatus, one, need); }, test);
 }
 
+std::optional<NamedOutline> outline_at(const Test& test, const Snapshot& snapshot) {
+  const std::string_view phase = snapshot.phase;
+  if (!phase.ends_with(".rest") || phase.starts_with("drops.")) return std::nullopt;
+  auto heap = heap_at(test, snapshot);
+  return heap ? std::optional(NamedOutline{phase.substr(0, phase.find('.')), std::move(*heap)}) : std::nullopt;
+}
+
 bool is_rejected(const Test& test, const Readings& run) {
   return is_rejected(rejection_index(test, run).value_or(0));
 }

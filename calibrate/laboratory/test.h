@@ -86,21 +86,18 @@ std::string_view why_of_that_size(const AnyKind auto& test) {
   return std::visit([](const auto& one) { return why_of_that_size(one); }, test);
 }
 
-std::span<const std::string_view> series_of(const AnyKind auto& test) {
-  return std::visit([](const auto& one) { return series_of(one); }, test);
-}
-
-std::size_t series_at(const AnyKind auto& test, const Snapshot& snapshot) {
-  return std::visit([&](const auto& one) { return series_at(one, snapshot); }, test);
-}
-
 std::optional<Outline> heap_at(const AnyKind auto& test, const Snapshot& snapshot) {
   return std::visit([&](const auto& one) { return heap_at(one, snapshot); }, test);
 }
 
-std::optional<NamedOutline> outline_at(const AnyKind auto& test, const Snapshot& snapshot) {
-  return std::visit([&](const auto& one) { return outline_at(one, snapshot); }, test);
-}
+/// Outline of a heap at rest, named after the stage of the test, e.g. "step1"; can be copied into a laboratory file.
+struct NamedOutline {
+  std::string_view name;
+  Outline outline;
+};
+
+/// Outline of the heap if it rests after a stage worth drawing; a later one replaces an earlier one of the same name.
+std::optional<NamedOutline> outline_at(const Test& test, const Snapshot& snapshot);
 
 std::vector<Drawing> drawings_of(const AnyKind auto& test, std::span<const SeenRun> runs,
                                  std::span<const Measurement> measured) {
