@@ -104,7 +104,9 @@ Material material_of(const Study& study, const std::vector<double>& values, cons
   const Specimen& specimen = specimen_of(first.test);
   Material material{specimen.bulk_density_kg_m3, {}, specimen.grains, specimen.contact, study.parameters};
   for (std::size_t i = 0; i < values.size(); ++i) material.parameters[i].value = values[i];
-  material.grain_density_kg_m3 = grain_density_of(first.test, means_of(first.readings));
+  const Readings means = means_of(first.readings);
+  material.grain_density_kg_m3 =
+      std::visit([&](const auto& test) { return grain_density_of(test, means); }, first.test);
   return material;
 }
 

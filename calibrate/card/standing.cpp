@@ -70,7 +70,8 @@ std::string share_in_words(double share) {
 std::string rejected_in_words(const Card& card) {
   const Rejected rejected = rejected_of(card);
   const auto& share = card.confirmation.rejected_share;
-  const std::string heaps = rejected.test ? std::string(rejected_runs(rejected.test->test)) : "runs rejected";
+  const auto rejected_runs_of = [](const auto& test) { return std::string(rejected_runs(test)); };
+  const std::string heaps = rejected.test ? std::visit(rejected_runs_of, rejected.test->test) : "runs rejected";
   const std::string allowed = share ? ", " + share_in_words(*share) + " allowed" : "";
   return format("%zu of %zu ", rejected.runs, rejected.of) + heaps +
          (rejected.runs == 0 ? ", but all came close to it" : "") + allowed;

@@ -102,7 +102,7 @@ std::string unseen_parameters(const Study& study) {
     const StudyTest& test = study.tests[i];
     for (std::size_t k = 0; k < test.targets.size(); ++k)
       if (test.targets[k].weight > 0) readings.push_back(test.lab.measurements[k].reading);
-    const std::string unseen = unseen_by(test.lab.test, readings, free);
+    const auto unseen = std::visit([&](const auto& one) { return unseen_by(one, readings, free); }, test.lab.test);
     if (unseen.empty()) return "";
     out = unseen;
   }

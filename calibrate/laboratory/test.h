@@ -33,7 +33,8 @@ inline const Specimen& specimen_of(const Test& test) {
   return std::visit([](const auto& one) -> const Specimen& { return one; }, test);
 }
 
-// Dispatch to the kind of a test. Not declared for a single kind, so that a missing function does not compile.
+// Dispatch to the kind of a test. Not declared for a single kind, so that a missing function does not compile. What one
+// place asks, it asks by `std::visit`.
 
 template <class T>
 concept AnyKind = std::same_as<T, Test>;
@@ -70,18 +71,6 @@ std::vector<ReadingKind> reading_kinds(const AnyKind auto& test) {
   return std::visit([](const auto& one) { return reading_kinds(one); }, test);
 }
 
-void read_outline(ObjectReader& reader, const ReadingKind& kind, AnyKind auto& test) {
-  std::visit([&](auto& one) { read_outline(reader, kind, one); }, test);
-}
-
-void ask_for(AnyKind auto& test, const ReadingKind& kind) {
-  std::visit([&](auto& one) { ask_for(one, kind); }, test);
-}
-
-std::optional<double> grain_density_of(const AnyKind auto& test, const Readings& means) {
-  return std::visit([&](const auto& one) { return grain_density_of(one, means); }, test);
-}
-
 std::string_view why_of_that_size(const AnyKind auto& test) {
   return std::visit([](const auto& one) { return why_of_that_size(one); }, test);
 }
@@ -116,10 +105,6 @@ std::optional<double> rejection_index(const AnyKind auto& test, const Readings& 
   return std::visit([&](const auto& one) { return rejection_index(one, run); }, test);
 }
 
-std::string_view rejected_runs(const AnyKind auto& test) {
-  return std::visit([](const auto& one) { return rejected_runs(one); }, test);
-}
-
 std::string remarks_on(const AnyKind auto& test, std::span<const Readings> runs) {
   return std::visit([&](const auto& one) { return remarks_on(one, runs); }, test);
 }
@@ -140,15 +125,6 @@ std::optional<LikelyRange> likely_strength_pa(const AnyKind auto& test, const Re
   return std::visit([&](const auto& one) { return likely_strength_pa(one, readings); }, test);
 }
 
-std::string unseen_by(const AnyKind auto& test, std::span<const std::string_view> readings,
-                      std::span<const std::string_view> parameters) {
-  return std::visit([&](const auto& one) { return unseen_by(one, readings, parameters); }, test);
-}
-
-std::vector<Experience> experience_of(const AnyKind auto& test) {
-  return std::visit([](const auto& one) { return experience_of(one); }, test);
-}
-
 /// Fields of the apparatus and their places in laboratory files; objects follow their members.
 std::vector<FilePlace> places_in_files(const AnyKind auto& test) {
   return std::visit([](const auto& one) { return places_in_files(one); }, test);
@@ -156,10 +132,6 @@ std::vector<FilePlace> places_in_files(const AnyKind auto& test) {
 
 std::optional<double> narrowest_opening_m(const AnyKind auto& test) {
   return std::visit([](const auto& one) { return narrowest_opening_m(one); }, test);
-}
-
-double default_tolerance(const AnyKind auto& test, const Measurement& measured) {
-  return std::visit([&](const auto& one) { return default_tolerance(one, measured); }, test);
 }
 
 /// True if the standards reject this run, so that the test must be repeated.

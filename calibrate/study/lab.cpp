@@ -18,7 +18,8 @@ namespace {
 
 /// Asks about sizes far outside the usual range, which are mostly in another unit.
 void ask_about_sizes(const Test& test, Questions& questions) {
-  for (const auto& [place, value, smallest, largest] : experience_of(test)) {
+  const auto sizes = std::visit([](const auto& one) { return experience_of(one); }, test);
+  for (const auto& [place, value, smallest, largest] : sizes) {
     if (value >= smallest && value <= largest) continue;
     const Unit unit = unit_of_place(place).value();
     const std::string own = " " + std::string(unit.name), others = in_other_units(value, unit.key, smallest, largest);

@@ -247,11 +247,11 @@ std::vector<Measurement> read_measurements(ObjectReader& document, Test& test,
       measurement.reading = kind.measure;
       const auto read = [&](ObjectReader& one) {
         if (!kind.from_outline) return read_one(one, kind, measurement, questions);
-        read_outline(one, kind, test);
+        std::visit([&](auto& own) { read_outline(one, kind, own); }, test);
         one.number("standard_deviation", measurement.standard_deviation, deviations, Need::required);
       };
       if (!reader.object(kind.key, Need::optional, read, form_of(kind, reader.content(kind.key)))) continue;
-      if (kind.on_request) ask_for(test, kind);
+      if (kind.on_request) std::visit([&](auto& own) { ask_for(own, kind); }, test);
       if (!measurements.empty() && measurements.back().reading == kind.measure)
         reader.fault(kind.key, std::string(kind.measure) + " and this are one reading", "give one of them");
       if (kind.less_than) measurement.value = *kind.less_than - measurement.value;

@@ -19,7 +19,7 @@ double tolerance_of(const Study& study, std::size_t test, std::size_t measuremen
   const Measurement& read = one.lab.measurements.at(measurement);
   if (const auto& own = one.targets.at(measurement).tolerance) return *own;
   if (is_length(read.reading) && study.search.tolerance_mm) return *study.search.tolerance_mm;
-  return default_tolerance(one.lab.test, read);
+  return std::visit([&](const auto& kind) { return default_tolerance(kind, read); }, one.lab.test);
 }
 
 std::string ErrorUnit::words(double error, const char* pattern) const {
