@@ -15,42 +15,27 @@ namespace {
 
 constexpr double kHoldOutAlarm = 0.05;  // probability of rejecting a correct prediction, all readings of a test
 
-/// Mean and standard deviation of a reading over the packings; empty if some packing lacks it.
-std::optional<CardReading> mean_over(const std::string& name, const std::vector<Readings>& runs) {
-  std::vector<double> values;
-  for (const auto& run : runs) {
-    const auto value = run.find(name);
-    if (!value) return std::nullopt;
-    values.push_back(*value);
-  }
-  const Sample sample = sample_of(values);
-  CardReading out;
-  out.name = name;
-  out.simulated = sample.mean;
-  out.simulated_standard_deviation = sample.standard_deviation;
-  out.packings = sample.count;
-  return out;
-}
-
-/// Readings over the accepted runs, with the measurement if there is one.
-std::vector<CardReading> card_readings(const Study& study, std::size_t index, const std::vector<Readings>& all) {
+/// Readings that all accepted runs have, with the measurement if there is one.
+std::vector<CardReading> card_readings(const Study& study, std::size_t index, const std::vector<Baseline::Run>& all) {
   const StudyTest& test = study.tests[index];
-  std::vector<Readings> runs;
-  for (const std::size_t run : accepted(test.lab.test, all)) runs.push_back(all[run]);
+  const std::vector<Baseline::Run> runs = accepted(test.lab.test, all);
   std::vector<CardReading> out;
-  for (const auto& reading : runs.at(0).all()) {
-    auto mean = mean_over(reading.name, runs);
-    if (!mean) continue;
+  for (const auto& reading : runs.at(0).readings.all()) {
+    const std::vector<double> values = column_of(runs, reading.name);
+    if (values.size() < runs.size()) continue;
+    CardReading mean;
+    mean.name = reading.name;
+    mean = simulated_now(std::move(mean), sample_of(values));
     for (std::size_t i = 0; i < test.lab.measurements.size(); ++i) {
       const auto& measurement = test.lab.measurements[i];
       if (measurement.reading != reading.name) continue;
-      mean->measured = measurement.value;
-      mean->standard_deviation = measurement.standard_deviation;
-      mean->repeats = measurement.repeats;
-      mean->weight = test.targets[i].weight;
-      mean->tolerance = tolerance_of(study, index, i);
+      mean.measured = measurement.value;
+      mean.standard_deviation = measurement.standard_deviation;
+      mean.repeats = measurement.repeats;
+      mean.weight = test.targets[i].weight;
+      mean.tolerance = tolerance_of(study, index, i);
     }
-    out.push_back(std::move(*mean));
+    out.push_back(std::move(mean));
   }
   return out;
 }
@@ -91,9 +76,7 @@ CardTest card_test_of(const Study& study, std::size_t index, const std::vector<d
   if (test.lab.repeats.sheared > 0) add_note(sheared_in_words(test.lab.repeats));
   out.test = test_with(test.lab.test, values, first_packing);
   if (baseline.runs.empty()) return out;
-  std::vector<Readings> runs;
-  for (const Baseline::Run& run : baseline.runs) runs.push_back(run.readings);
-  out.readings = card_readings(study, index, runs);
+  out.readings = card_readings(study, index, baseline.runs);
   out.baseline = baseline;
   if (out.hold_out) judge(out);
   return out;

@@ -9,9 +9,23 @@
 
 namespace pastefit {
 
+CardReading simulated_now(CardReading reading, const Sample& sample) {
+  reading.simulated = sample.mean;
+  reading.simulated_standard_deviation = sample.standard_deviation;
+  reading.packings = sample.count;
+  return reading;
+}
+
 std::optional<double> standard_error(const CardReading& reading) {
   if (reading.packings < 2) return std::nullopt;
   return reading.simulated_standard_deviation / std::sqrt(static_cast<double>(reading.packings));
+}
+
+std::vector<double> column_of(const std::vector<Baseline::Run>& runs, std::string_view name) {
+  std::vector<double> column;
+  for (const auto& run : runs)
+    if (const auto value = run.readings.find(name)) column.push_back(*value);
+  return column;
 }
 
 std::vector<double> values_of(const Material& material) {

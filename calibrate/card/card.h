@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calibrate/base/statistics.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/tolerance.h"
 #include "calibrate/study/unstated_conditions.h"
@@ -31,6 +32,9 @@ struct CardReading {
   int packings = 1;                           ///< of the simulated mean and deviation
 };
 
+/// The reading with these simulated values.
+CardReading simulated_now(CardReading reading, const Sample& sample);
+
 /// Standard error of the simulated mean: simulated_standard_deviation/sqrt(packings). Empty for one packing.
 std::optional<double> standard_error(const CardReading& reading);
 
@@ -44,6 +48,9 @@ struct Baseline {
   std::string machine;  ///< `machine_type` it ran on
   std::vector<Run> runs;
 };
+
+/// Values of one reading, in the order of the runs.
+std::vector<double> column_of(const std::vector<Baseline::Run>& runs, std::string_view name);
 
 /// Material without its tests: contact laws, in SI for grains of one size, and scale-free.
 struct Material {

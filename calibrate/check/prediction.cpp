@@ -95,7 +95,7 @@ Result<Prediction> predict(const Card& card, std::span<const std::vector<double>
   if (out.failed == out.heaps) return *last;
   for (const ReadingKind& kind : reading_kinds(test)) {
     const auto* one = find_measurement(measured, kind.name);
-    const auto has_it = [&](const Runs& runs) { return !column_of(runs, std::string(kind.name)).empty(); };
+    const auto has_it = [&](const Runs& runs) { return !column_of(runs, kind.name).empty(); };
     if ((!kind.advised && !one) || std::ranges::none_of(standing, has_it)) continue;
     ReadingPrediction reading = reading_of(std::string(kind.name), standing);
     if (one) reading.measured = *one;

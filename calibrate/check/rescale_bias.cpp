@@ -9,18 +9,6 @@
 
 namespace pastefit {
 
-namespace {
-
-/// The reading with new simulated values.
-CardReading simulated_now(CardReading reading, const Sample& sample) {
-  reading.simulated = sample.mean;
-  reading.simulated_standard_deviation = sample.standard_deviation;
-  reading.packings = sample.count;
-  return reading;
-}
-
-}  // namespace
-
 Result<Card> with_measured_bias(const Card& before, Card after, int count, const CheckOptions& options,
                                 const CheckEngine& engine) {
   // Packings not used by any search, whose seeds are small or derived from its own seed.

@@ -42,19 +42,4 @@ Result<std::vector<Baseline::Run>> baseline_runs(const Test& test, const std::st
   return runs;
 }
 
-std::vector<Baseline::Run> accepted(const Test& test, const std::vector<Baseline::Run>& runs) {
-  std::vector<Readings> all;
-  for (const Baseline::Run& run : runs) all.push_back(run.readings);
-  std::vector<Baseline::Run> out;
-  for (const std::size_t run : accepted(test, all)) out.push_back(runs[run]);
-  return out;
-}
-
-std::vector<double> column_of(const std::vector<Baseline::Run>& runs, const std::string& name) {
-  std::vector<double> column;
-  for (const auto& run : runs)
-    if (const auto value = run.readings.find(name)) column.push_back(*value);
-  return column;
-}
-
 }  // namespace pastefit

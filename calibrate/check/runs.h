@@ -20,10 +20,4 @@ Result<std::vector<Baseline::Run>> baseline_runs(const Test& test, const std::st
                                                  const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
                                                  int threads);
 
-/// Accepted runs (`laboratory/test.h`).
-std::vector<Baseline::Run> accepted(const Test& test, const std::vector<Baseline::Run>& runs);
-
-/// Values of one reading, in the order of the runs.
-std::vector<double> column_of(const std::vector<Baseline::Run>& runs, const std::string& name);
-
 }  // namespace pastefit

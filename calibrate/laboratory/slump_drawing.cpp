@@ -21,10 +21,7 @@ class HeapDrawing {
  public:
   HeapDrawing(const SlumpTest& test, std::string step, std::span<const SeenRun> runs,
               std::span<const Measurement> measured)
-      : test_(test), step_(std::move(step)), measured_(measured) {
-    std::vector<Readings> readings;
-    for (const SeenRun& run : runs) readings.push_back(run.readings);
-    for (const std::size_t run : accepted(test, readings)) accepted_.push_back(runs[run]);
+      : test_(test), step_(std::move(step)), accepted_(accepted(test, runs)), measured_(measured) {
     for (const SeenRun& run : runs)
       if (const auto seen = run.outlines.find(step_); seen != run.outlines.end())
         outlines_.push_back({&seen->second, run.packing,
@@ -214,10 +211,6 @@ class HeapDrawing {
   double half_width_ = 0;       // of the drawing [mm]
   Drawing drawing_;
 };
-
-}  // namespace
-
-namespace {
 
 /// Spread over time, simulated and measured.
 std::optional<Drawing> drawing_of_flow(const SlumpTest& test, std::span<const SeenRun> runs,

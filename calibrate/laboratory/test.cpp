@@ -8,7 +8,6 @@
 #include "calibrate/base/object_schema.h"
 #include "calibrate/base/object_writer.h"
 #include "calibrate/base/units.h"
-#include "calibrate/judge/verdict.h"
 #include "core/apparatus/field_checker.h"
 
 namespace pastefit {
@@ -39,12 +38,6 @@ std::optional<NamedOutline> outline_at(const Test& test, const Snapshot& snapsho
 
 bool is_rejected(const Test& test, const Readings& run) {
   return is_rejected(rejection_index(test, run).value_or(0));
-}
-
-std::vector<std::size_t> accepted(const Test& test, std::span<const Readings> runs) {
-  std::vector<bool> rejected;
-  for (const Readings& run : runs) rejected.push_back(is_rejected(test, run));
-  return accepted(rejected);
 }
 
 Faults validate(const Test& test) {

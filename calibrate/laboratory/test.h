@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "calibrate/judge/verdict.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/drop.h"
 #include "calibrate/laboratory/measurement.h"
@@ -136,8 +137,15 @@ std::optional<double> narrowest_opening_m(const AnyKind auto& test) {
 
 /// True if the standards reject this run, so that the test must be repeated.
 bool is_rejected(const Test& test, const Readings& run);
-/// Indices of the accepted runs (`judge/verdict.h`).
-std::vector<std::size_t> accepted(const Test& test, std::span<const Readings> runs);
+/// The accepted ones (`judge/verdict.h`) of runs with `readings`.
+template <class Runs>
+auto accepted(const Test& test, const Runs& runs) {
+  std::vector<bool> rejected;
+  for (const auto& run : runs) rejected.push_back(is_rejected(test, run.readings));
+  std::vector<typename Runs::value_type> out;
+  for (const std::size_t i : accepted(rejected)) out.push_back(runs[i]);
+  return out;
+}
 
 void read_apparatus(ObjectReader& apparatus, Test& test, Need need);
 
