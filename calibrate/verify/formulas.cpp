@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <iterator>
+#include <vector>
 
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
@@ -37,10 +38,6 @@ using Arguments = FormulaArguments;
 
 double largest_overlap(const Approach& a) {
   return std::pow(15 * a.mass * a.speed * a.speed / (16 * a.modulus * std::sqrt(a.radius)), 0.4);
-}
-
-Result<double> hertz_max_overlap(const Impact& scene, const Arguments&) {
-  return largest_overlap(pair_of(scene));
 }
 
 Result<double> hertz_max_force(const Impact& scene, const Arguments&) {
@@ -84,14 +81,6 @@ Result<double> collision_spin(const Impact& scene, const Arguments& arguments) {
   // Lever and impulse both change sign for the second grain.
   const Vec3 twist = cross(pair_of(scene).normal, on_first.value());
   return along(grain.spin_rad_s + (2.5 / (mass_kg(scene, grain) * grain.radius_m)) * twist, arguments.axis);
-}
-
-Result<double> initial_velocity(const Impact& scene, const Arguments& arguments) {
-  return along(scene.grains[arguments.grain].velocity_m_s, arguments.axis);
-}
-
-Result<double> initial_spin(const Impact& scene, const Arguments& arguments) {
-  return along(scene.grains[arguments.grain].spin_rad_s, arguments.axis);
 }
 
 // Cohesion and bridges
@@ -138,28 +127,6 @@ double living_gap(const Impact& scene) {
 
 double forming_gap(const Impact& scene) {
   return std::min(constants(scene).formation_gap * size_scale(scene), living_gap(scene));
-}
-
-Result<double> force_of_bridge(const Impact& scene, const Arguments& arguments) {
-  return attraction(scene, arguments.gap_m);
-}
-
-Result<double> bridge_work(const Impact& scene, const Arguments&) {
-  return work(scene, 0, living_gap(scene));
-}
-
-Result<double> bridge_loop_area(const Impact& scene, const Arguments&) {
-  return work(scene, forming_gap(scene), living_gap(scene));
-}
-
-/// Relative speed of an elastic pair that starts at touch, after rupture of its bridge; 0 if it does not separate.
-Result<double> speed_after_rupture(const Impact& scene, const Arguments&) {
-  return speed_after(pair_of(scene), work(scene, 0, living_gap(scene)));
-}
-
-/// The same for an initially separated pair: the bridge costs the difference of the works of rupture and formation.
-Result<double> speed_after_rebound(const Impact& scene, const Arguments&) {
-  return speed_after(pair_of(scene), work(scene, forming_gap(scene), living_gap(scene)));
 }
 
 // Sliding and rolling on a wall, along x
@@ -245,22 +212,6 @@ double rotor_time_to_level(const Impact& scene, bool loaded) {
   return sum;
 }
 
-Result<double> rotor_speed(const Impact& scene, const Arguments&) {
-  return rotor_speed_at(scene, 0, false);
-}
-
-Result<double> rotor_time(const Impact& scene, const Arguments&) {
-  return rotor_time_to_level(scene, false);
-}
-
-Result<double> loaded_rotor_speed(const Impact& scene, const Arguments&) {
-  return rotor_speed_at(scene, 0, true);
-}
-
-Result<double> loaded_rotor_time(const Impact& scene, const Arguments&) {
-  return rotor_time_to_level(scene, true);
-}
-
 // A grain among held neighbours
 
 /// Decay rate l of the oscillation along the velocity, x'' + 2 l x' + w^2 x = 0, with springs and dampers of all
@@ -288,54 +239,61 @@ Result<double> caged_decay_rate(const Impact& scene, const Arguments&) {
   return loss;
 }
 
-Result<double> falling_velocity(const Impact& scene, const Arguments&) {
-  return scene.grains[0].velocity_m_s.z - scene.gravity_m_s2 * scene.duration_s;
-}
-
 constexpr Formula kFormulas[] = {
-    {"hertz_max_overlap", hertz_max_overlap, "(15 m* v^2/(16 E* sqrt(R*)))^(2/5)"},
+    {"hertz_max_overlap", [](auto& scene, auto&) -> Result<double> { return largest_overlap(pair_of(scene)); },
+     "(15 m* v^2/(16 E* sqrt(R*)))^(2/5)"},
     {"hertz_max_force", hertz_max_force, "4/3 E* sqrt(R*) d^(3/2) at the largest overlap"},
     {"hertz_contact_time", hertz_duration, "2.868 (m*^2/(R* E*^2 v))^(1/5)"},
     {"collision_velocity", collision_velocity,
      "after a collision with impulse (1+e) m* v_n and gross sliding mu (1+e) m* v_n"},
     {"collision_spin", collision_spin, "w + 5/(2 m R) n x impulse, gross sliding"},
-    {"initial_velocity", initial_velocity, "as at the start", FormulaNeeds::grain},
-    {"initial_spin", initial_spin, "as at the start", FormulaNeeds::grain},
+    {"initial_velocity",
+     [](auto& scene, auto& arguments) -> Result<double> {
+       return along(scene.grains[arguments.grain].velocity_m_s, arguments.axis);
+     },
+     "as at the start", FormulaNeeds::grain},
+    {"initial_spin",
+     [](auto& scene, auto& arguments) -> Result<double> {
+       return along(scene.grains[arguments.grain].spin_rad_s, arguments.axis);
+     },
+     "as at the start", FormulaNeeds::grain},
     {"cohesive_overlap", cohesive_overlap, "at rest: (3 F_coh/(4 E* sqrt(R*)))^(2/3)"},
-    {"bridge_force", force_of_bridge, "F(d) at a gap, zero beyond the rupture"},
-    {"bridge_work", bridge_work, "integral of F from touch to rupture"},
-    {"bridge_loop_area", bridge_loop_area, "integral of F from the formation gap to rupture"},
-    {"speed_after_rupture", speed_after_rupture, "sqrt(v^2 - 2 W/m*), from touch"},
-    {"speed_after_rebound", speed_after_rebound, "sqrt(v^2 - 2 W/m*), W from the formation gap to rupture"},
-    {"jkr_force", jkr_force, "JKR at a gap; a negative one is an overlap; 8/3 pi gamma R* at touch"},
-    {"jkr_pull_off", jkr_pull_off, "3 pi gamma R*"},
-    {"jkr_loop_area", jkr_loop_area, "integral of JKR's force from touch to the end of the contact"},
-    {"dmt_force", dmt_force, "DMT at a gap; a negative one is an overlap"},
-    {"dmt_pull_off", dmt_pull_off, "4 pi gamma R*"},
-    {"sjkr_force", sjkr_force, "SJKR at a gap; a negative one is an overlap"},
-    {"sjkr_pull_off", sjkr_pull_off, "2/3 pi^3 k^3 R*^2/E*^2"},
-    {"speed_after_parting", speed_after_parting, "sqrt(v^2 - 2 W/m*), W the area of JKR's loop"},
-    {"epa_force", epa_force, "elasto-plastic adhesion on the way apart, at a gap; a negative one is an overlap"},
-    {"epa_loop_area", epa_loop_area, "work lost in its cycle: loading, unloading, adhesion branch"},
-    {"epa_rebound_speed", epa_rebound_speed, "sqrt(v^2 - 2 W/m*), W the area of that cycle"},
-    {"squeeze_force", squeeze_force, "6 pi mu R*^2 v/h at a gap, v the speed of parting"},
-    {"squeezed_speed", squeezed_speed, "v - 6 pi mu R*^2/m* ln(h0/h), dh/dt = -v"},
-    {"settled_overlap", settled_overlap, "-h0 exp(-m g t/(6 pi mu R^2)), without inertia", FormulaNeeds::wall},
-    {"sheared_velocity", sheared_velocity, "sliding at a gap: decays with 6 pi mu R* (8/15 ln(R*/h) + 0.9588)"},
-    {"sheared_spin", sheared_spin, "the same of a spin, with the lever r + h/2"},
+    {"bridge_force", [](auto& scene, auto& arguments) -> Result<double> { return attraction(scene, arguments.gap_m); },
+     "F(d) at a gap, zero beyond the rupture"},
+    {"bridge_work", [](auto& scene, auto&) -> Result<double> { return work(scene, 0, living_gap(scene)); },
+     "integral of F from touch to rupture"},
+    {"bridge_loop_area",
+     [](auto& scene, auto&) -> Result<double> { return work(scene, forming_gap(scene), living_gap(scene)); },
+     "integral of F from the formation gap to rupture"},
+    {"speed_after_rupture",
+     [](auto& scene, auto&) -> Result<double> {
+       return speed_after(pair_of(scene), work(scene, 0, living_gap(scene)));
+     },
+     "sqrt(v^2 - 2 W/m*), from touch"},
+    {"speed_after_rebound",
+     [](auto& scene, auto&) -> Result<double> {
+       return speed_after(pair_of(scene), work(scene, forming_gap(scene), living_gap(scene)));
+     },
+     "sqrt(v^2 - 2 W/m*), W from the formation gap to rupture"},
     {"speed_after_slip", speed_after_slip, "5/7 v + 2/7 r w relative to the wall, once the grain rolls",
      FormulaNeeds::wall},
     {"slope_speed", slope_speed, "v + 5/7 g (sin - mu_r cos) t, rolling; 0 if mu_r >= tan", FormulaNeeds::wall},
     {"sliding_speed", sliding_speed, "v + g (sin - mu cos) t", FormulaNeeds::wall},
     {"spin_after_decay", spin_after_decay, "w - 5 mu_r g t/(2 r)", FormulaNeeds::wall},
-    {"rotor_speed", rotor_speed, "sqrt(3 g sin(angle)/L) for a plate hinged at its edge", FormulaNeeds::rotor},
-    {"rotor_time", rotor_time, "integral of d(angle)/w", FormulaNeeds::rotor},
-    {"loaded_rotor_speed", loaded_rotor_speed, "the same with the first grain on the plate, its contact stiff",
-     FormulaNeeds::rotor},
-    {"loaded_rotor_time", loaded_rotor_time, "the same with the first grain on the plate, its contact stiff",
-     FormulaNeeds::rotor},
+    {"rotor_speed", [](auto& scene, auto&) -> Result<double> { return rotor_speed_at(scene, 0, false); },
+     "sqrt(3 g sin(angle)/L) for a plate hinged at its edge", FormulaNeeds::rotor},
+    {"rotor_time", [](auto& scene, auto&) -> Result<double> { return rotor_time_to_level(scene, false); },
+     "integral of d(angle)/w", FormulaNeeds::rotor},
+    {"loaded_rotor_speed", [](auto& scene, auto&) -> Result<double> { return rotor_speed_at(scene, 0, true); },
+     "the same with the first grain on the plate, its contact stiff", FormulaNeeds::rotor},
+    {"loaded_rotor_time", [](auto& scene, auto&) -> Result<double> { return rotor_time_to_level(scene, true); },
+     "the same with the first grain on the plate, its contact stiff", FormulaNeeds::rotor},
     {"caged_decay_rate", caged_decay_rate, "sum of the neighbours' dampers at their first overlap along v, over 2 m"},
-    {"falling_velocity", falling_velocity, "v - g t", FormulaNeeds::grain},
+    {"falling_velocity",
+     [](auto& scene, auto&) -> Result<double> {
+       return scene.grains[0].velocity_m_s.z - scene.gravity_m_s2 * scene.duration_s;
+     },
+     "v - g t", FormulaNeeds::grain},
 };
 
 std::string_view what_lacks(FormulaNeeds needs, const Impact& scene) {
@@ -359,7 +317,13 @@ Result<double> value_of(const Formula& formula, const Impact& scene, const Formu
 }
 
 std::span<const Formula> formulas() {
-  return kFormulas;
+  static const std::vector<Formula> all = [] {
+    std::vector<Formula> rows(std::begin(kFormulas), std::end(kFormulas));
+    for (const auto more : {sticking_formulas(), yielding_formulas(), viscous_formulas()})
+      rows.insert(rows.end(), more.begin(), more.end());
+    return rows;
+  }();
+  return all;
 }
 
 }  // namespace pastefit

@@ -9,6 +9,11 @@ namespace pastefit {
 
 namespace {
 
+// Closed forms of two grains, or a grain and a wall, with a viscous bridge, independent of the engine (core/laws). C_n
+// = 6 pi mu R*^2, C_t = 6 pi mu R* (8/15 ln(R*/h) + 0.9588), h: gap; for a wall, its share of the attraction counts.
+// Limits: the bridge's attraction is neglected, so it must be small. Requirements: a pair; an existing bridge. Errors:
+// the gap becomes smaller than the roughness.
+
 Fault too_near() {
   return outside("the pair comes nearer than the roughness");
 }
@@ -34,7 +39,8 @@ double first_gap(const Impact& scene) {
   return norm(scene.grains[1].centre_m - grain.centre_m) - grain.radius_m - scene.grains[1].radius_m;
 }
 
-/// Velocity and spin of a grain after the sliding decay.
+/// Velocity and spin of a grain of a pair in relative sliding at constant gap, after the test's duration: the sliding
+/// velocity decays with the rate C_t (1/m* + sum of (r + h/2)^2/I).
 struct Sheared {
   Vec3 velocity, spin;
 };
@@ -59,12 +65,8 @@ Sheared sheared(const Impact& scene, std::size_t which) {
           grain.spin_rad_s + lever / inertia * cross(a.normal, on_first)};
 }
 
-}  // namespace
-
-Result<double> squeeze_force(const Impact& scene, const FormulaArguments& arguments) {
-  return -squeezing(scene) * pair_of(scene).speed / std::max(arguments.gap_m, least_gap(scene));
-}
-
+/// Speed of approach after the test's duration, without other forces: v = v0 - C_n/m* ln(h0/h), dh/dt = -v, by
+/// integration over ln h.
 Result<double> squeezed_speed(const Impact& scene, const FormulaArguments&) {
   const Approach a = pair_of(scene);
   const double start = first_gap(scene), slope = squeezing(scene) / a.mass;
@@ -82,6 +84,8 @@ Result<double> squeezed_speed(const Impact& scene, const FormulaArguments&) {
   return too_near();
 }
 
+/// Overlap -h after the test's duration for a grain pressed on a wall by its weight, without inertia: h = h0 exp(-m g
+/// t/C_n).
 Result<double> settled_overlap(const Impact& scene, const FormulaArguments&) {
   const double weight = mass_kg(scene, scene.grains[0]) * scene.gravity_m_s2;
   const double gap = first_gap(scene) * std::exp(-weight * scene.duration_s / squeezing(scene));
@@ -89,12 +93,30 @@ Result<double> settled_overlap(const Impact& scene, const FormulaArguments&) {
   return -gap;
 }
 
-Result<double> sheared_velocity(const Impact& scene, const FormulaArguments& arguments) {
-  return along(sheared(scene, arguments.grain).velocity, arguments.axis);
-}
+constexpr Formula kViscous[] = {
+    {"squeeze_force",
+     [](auto& scene, auto& arguments) -> Result<double> {
+       return -squeezing(scene) * pair_of(scene).speed / std::max(arguments.gap_m, least_gap(scene));
+     },
+     "6 pi mu R*^2 v/h at a gap, v the speed of parting"},
+    {"squeezed_speed", squeezed_speed, "v - 6 pi mu R*^2/m* ln(h0/h), dh/dt = -v"},
+    {"settled_overlap", settled_overlap, "-h0 exp(-m g t/(6 pi mu R^2)), without inertia", FormulaNeeds::wall},
+    {"sheared_velocity",
+     [](auto& scene, auto& arguments) -> Result<double> {
+       return along(sheared(scene, arguments.grain).velocity, arguments.axis);
+     },
+     "sliding at a gap: decays with 6 pi mu R* (8/15 ln(R*/h) + 0.9588)"},
+    {"sheared_spin",
+     [](auto& scene, auto& arguments) -> Result<double> {
+       return along(sheared(scene, arguments.grain).spin, arguments.axis);
+     },
+     "the same of a spin, with the lever r + h/2"},
+};
 
-Result<double> sheared_spin(const Impact& scene, const FormulaArguments& arguments) {
-  return along(sheared(scene, arguments.grain).spin, arguments.axis);
+}  // namespace
+
+std::span<const Formula> viscous_formulas() {
+  return kViscous;
 }
 
 }  // namespace pastefit

@@ -7,6 +7,12 @@ namespace pastefit {
 
 namespace {
 
+// Closed forms of one cycle of a contact with elasto-plastic adhesion (`epa`, exponent 3/2; `luding`, 1), from the
+// branches of its law, independent of the engine (core/laws): loading to the overlap D, then unloading to the adhesion
+// branch and along it. D is the overlap at which a held second grain reverses, or that of a start at rest; for free
+// grains, that at which the loading branch has absorbed their kinetic energy. For a wall, its share of the adhesion
+// counts. Requirements: a pair that approaches or overlaps; no friction.
+
 /// One cycle of the law.
 class Cycle {
  public:
@@ -64,19 +70,24 @@ class Cycle {
   double exponent_ = 1.5, loading_ = 0, plastic_ = 0, adhesion_ = 0, pull_off_ = 0, deepest_ = 0;
 };
 
-}  // namespace
-
-Result<double> epa_force(const Impact& scene, const FormulaArguments& arguments) {
-  return -Cycle(scene).force(-arguments.gap_m);
-}
-
-Result<double> epa_loop_area(const Impact& scene, const FormulaArguments&) {
-  return Cycle(scene).lost();
-}
-
+/// Relative speed after a collision without dashpot; 0 if the grains stick.
 Result<double> epa_rebound_speed(const Impact& scene, const FormulaArguments&) {
   const Cycle cycle(scene);
   return speed_after(cycle.pair(), cycle.lost());
+}
+
+constexpr Formula kYielding[] = {
+    {"epa_force", [](auto& scene, auto& arguments) -> Result<double> { return -Cycle(scene).force(-arguments.gap_m); },
+     "elasto-plastic adhesion on the way apart, at a gap; a negative one is an overlap"},
+    {"epa_loop_area", [](auto& scene, auto&) -> Result<double> { return Cycle(scene).lost(); },
+     "work lost in its cycle: loading, unloading, adhesion branch"},
+    {"epa_rebound_speed", epa_rebound_speed, "sqrt(v^2 - 2 W/m*), W the area of that cycle"},
+};
+
+}  // namespace
+
+std::span<const Formula> yielding_formulas() {
+  return kYielding;
 }
 
 }  // namespace pastefit
