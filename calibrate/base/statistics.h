@@ -29,6 +29,16 @@ double unequal_band_of(const Sample& first, const Sample& second, double false_a
 /// True if two means differ by at most their band or, if that is 0, by rounding: 1e-9 of their size.
 bool lie_within(double band, double first, double second);
 
+/// Largest value from `low` to `high` for which `is_below` holds, which it does up to that value, to 60 binary digits
+/// of their difference.
+double bisected(double low, double high, const auto& is_below) {
+  for (int k = 0; k < 60; ++k) {
+    const double middle = (low + high) / 2;
+    (is_below(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
 struct WeighedSquare {
   double square = 0, weight = 1;
 };

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "calibrate/base/statistics.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/slump.h"
@@ -46,18 +47,13 @@ double deviation_of_share(const SlumpTest& test, const Heap& heap) {
 /// readings are wider than a cone.
 double nearest_cone_mm(const SlumpTest& test, const Heap& heap) {
   const Measurement &height = heap.height, &width = heap.width;
-  const auto rises = [&](double at_mm) {
+  const auto falls = [&](double at_mm) {
     const double cone_mm = cone_width_mm(test, at_mm);
-    return (at_mm - height.value) / std::pow(error_of(height), 2) >
-           (cone_mm - width.value) * cone_mm / (2 * at_mm) / std::pow(error_of(width), 2);
+    return !((at_mm - height.value) / std::pow(error_of(height), 2) >
+             (cone_mm - width.value) * cone_mm / (2 * at_mm) / std::pow(error_of(width), 2));
   };
-  double low = height.value / std::pow(share_of_cone_width(test, heap), 2),
-         high = height.value;  // matches one reading exactly
-  for (int k = 0; k < 60; ++k) {
-    const double middle = (low + high) / 2;
-    (rises(middle) ? high : low) = middle;
-  }
-  return low;
+  // Either end matches one reading exactly.
+  return bisected(height.value / std::pow(share_of_cone_width(test, heap), 2), height.value, falls);
 }
 
 /// Width of the narrowest heap of this height, a flat cylinder.

@@ -4,14 +4,14 @@
 #include <numbers>
 #include <string_view>
 
+#include "calibrate/base/statistics.h"
 #include "calibrate/base/units.h"
 
 namespace pastefit {
 
 namespace {
 
-constexpr double gravity = 9.81;  // as precise as the theories
-constexpr int halvings = 60;
+constexpr double gravity = 9.81;          // as precise as the theories
 constexpr double largest_strength = 100;  // over the yield stress of the height
 constexpr std::string_view height_formula = "Schowalter 1998", spread_formula = "Roussel 2005",
                            beyond_spread_formula = "Roussel 2005 (heap not flat)";
@@ -25,13 +25,9 @@ double stress_at(double al, double z) {
 
 double kept_share_of_frustum(double al, double stress) {
   if (stress >= stress_at(al, 1)) return 1;
-  double low = 0, high = 1;
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = (low + high) / 2;
-    (stress_at(al, middle) < stress ? low : high) = middle;
-  }
+  const double depth = bisected(0, 1, [&](double z) { return stress_at(al, z) < stress; });
   const auto excess = [&](double z) { return std::pow(1 + z / al, 3) - 1; };
-  return low + 2 * stress * std::log(excess(1) / excess(low));
+  return depth + 2 * stress * std::log(excess(1) / excess(depth));
 }
 
 double kept_share_of_cylinder(double stress) {
@@ -49,14 +45,10 @@ std::optional<double> kept_height_m(const Mould& mould, double density_kg_m3, do
 }
 
 std::optional<double> yield_stress_of_height_pa(const Mould& mould, double density_kg_m3, double height_m) {
-  double low = 0, high = density_kg_m3 * gravity * mould.height_m;  // twice what supports a cylinder
-  const auto most = kept_height_m(mould, density_kg_m3, high);
+  const double ample = density_kg_m3 * gravity * mould.height_m;  // twice what supports a cylinder
+  const auto most = kept_height_m(mould, density_kg_m3, ample);
   if (!most || !(height_m > 0) || !(height_m < mould.height_m)) return std::nullopt;
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = (low + high) / 2;
-    (*kept_height_m(mould, density_kg_m3, middle) < height_m ? low : high) = middle;
-  }
-  return low;
+  return bisected(0, ample, [&](double pa) { return *kept_height_m(mould, density_kg_m3, pa) < height_m; });
 }
 
 double yield_stress_of_spread_pa(double volume_m3, double density_kg_m3, double radius_m) {

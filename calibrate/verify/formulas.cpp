@@ -1,6 +1,7 @@
 #include "calibrate/verify/formulas.h"
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <iterator>
 #include <vector>
@@ -20,6 +21,10 @@ double share_of(const Impact& scene) {
 
 double speed_after(const Approach& pair, double work) {
   return std::sqrt(std::max(pair.speed * pair.speed - 2 * work / pair.mass, 0.0));
+}
+
+double integral(const std::function<double(double)>& slope, double from, double to) {
+  return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(slope, from, to);
 }
 
 double along(const Vec3& v, const std::string& axis) {
@@ -108,17 +113,9 @@ double attraction(const Impact& scene, double gap) {
   return share_of(scene) * s * s * closed_bridge_n(bridge, scene.reference_radius_m, -gap / s);
 }
 
-/// Work of the attraction between two gaps, by Simpson's rule; exact for the polynomial.
+/// Work of the attraction between two gaps.
 double work(const Impact& scene, double from, double to) {
-  constexpr int kPanels = 1000;
-  double sum = 0;
-  const double h = (to - from) / kPanels;
-  for (int k = 0; k < kPanels; ++k) {
-    // Prevents rounding beyond the rupture gap.
-    const double left = from + k * h, right = k + 1 == kPanels ? to * (1 - 1e-15) : left + h;
-    sum += h / 6 * (attraction(scene, left) + 4 * attraction(scene, 0.5 * (left + right)) + attraction(scene, right));
-  }
-  return sum;
+  return integral([&](double gap) { return attraction(scene, gap); }, from, to);
 }
 
 double living_gap(const Impact& scene) {
@@ -200,16 +197,11 @@ double rotor_speed_at(const Impact& scene, double angle, bool loaded) {
   return std::sqrt(2 * moment * scene.gravity_m_s2 * fallen / inertia);
 }
 
-/// Integral of d(angle)/w by the midpoint rule; angle = start (1 - u^2) removes the singularity.
+/// Integral of d(angle)/w; angle = start (1 - u^2) removes the singularity.
 double rotor_time_to_level(const Impact& scene, bool loaded) {
-  constexpr int kPoints = 20000;
   const double start = start_angle(scene.walls[0]);
-  double sum = 0;
-  for (int k = 0; k < kPoints; ++k) {
-    const double u = (k + 0.5) / kPoints;
-    sum += 2 * start * u / rotor_speed_at(scene, start * (1 - u * u), loaded) / kPoints;
-  }
-  return sum;
+  const auto slope = [&](double u) { return 2 * start * u / rotor_speed_at(scene, start * (1 - u * u), loaded); };
+  return integral(slope, 0, 1);
 }
 
 // A grain among held neighbours

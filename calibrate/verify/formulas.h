@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ double share_of(const Impact& scene);
 double speed_after(const Approach& pair, double work_j);
 /// Component along "x", "y" or "z".
 double along(const Vec3& v, const std::string& axis);
+/// Integral of a smooth function.
+double integral(const std::function<double(double)>& slope, double from, double to);
 /// Fault of a scene outside the validity of a formula.
 Fault outside(std::string what);
 

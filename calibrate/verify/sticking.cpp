@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "calibrate/base/statistics.h"
 #include "calibrate/verify/formulas.h"
 
 namespace pastefit {
@@ -28,13 +29,11 @@ double jkr_pull_off_patch(const Approach& pair, double gamma) {
 
 /// Larger contact radius with this overlap, by bisection.
 double patch_at(const Approach& pair, double gamma, double overlap) {
-  double low = jkr_pull_off_patch(pair, gamma), high = 2 * low;
-  while (overlap_of(pair, gamma, high) < overlap) high *= 2;
-  for (int n = 0; n < 100; ++n) {
-    const double middle = 0.5 * (low + high);
-    (overlap_of(pair, gamma, middle) < overlap ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  const auto is_below = [&](double patch) { return overlap_of(pair, gamma, patch) < overlap; };
+  const double least = jkr_pull_off_patch(pair, gamma);
+  double high = 2 * least;
+  while (is_below(high)) high *= 2;
+  return bisected(least, high, is_below);
 }
 
 double jkr_pull_off_gap(const Approach& pair, double gamma) {
@@ -48,15 +47,11 @@ double jkr_pull(const Approach& pair, double gamma, double gap) {
          4 * pair.modulus * std::pow(patch, 3) / (3 * pair.radius);
 }
 
-/// Work of the attraction from touch to separation [J], by Simpson's rule in s; gap = end (1 - s^2) removes the root at
-/// the end.
+/// Work of the attraction from touch to separation [J], integrated in s; gap = end (1 - s^2) removes the root at the
+/// end.
 double jkr_work(const Approach& pair, double gamma) {
-  constexpr int kPanels = 1000;
   const double end = jkr_pull_off_gap(pair, gamma);
-  const auto slope = [&](double s) { return 2 * s * end * jkr_pull(pair, gamma, end * (1 - s * s)); };
-  double sum = 0;
-  for (int k = 0; k < kPanels; ++k) sum += slope(k / 1e3) + 4 * slope((k + 0.5) / 1e3) + slope((k + 1) / 1e3);
-  return sum / (6 * kPanels);
+  return integral([&](double s) { return 2 * s * end * jkr_pull(pair, gamma, end * (1 - s * s)); }, 0, 1);
 }
 
 double surface_energy(const Impact& scene) {
