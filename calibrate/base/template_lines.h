@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -10,62 +9,53 @@
 
 namespace pastefit {
 
-/// Lines of a starting file, for inserting values. Throws std::logic_error if a line to be replaced is missing, since a
-/// value would be lost.
-class TemplateLines {
- public:
-  explicit TemplateLines(const std::string& text) {
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);) lines_.push_back(line);
-  }
+// Inserting values into the text of a starting file. Throws std::logic_error if a line to be replaced is missing, since
+// a value would be lost.
 
-  /// Replaces `count` lines from the first one that begins with `beginning` after its indentation, which is kept. An
-  /// empty `instead` removes them.
-  void replace(std::string_view beginning, const std::vector<std::string>& instead, std::size_t count = 1) {
-    const std::size_t at = find(beginning);
-    if (count > lines_.size() - at) missing(std::to_string(count) + " lines from " + std::string(beginning));
-    exchange(at, at + count, instead, blanks(lines_[at]));
-  }
+/// Begin of the line after the one at `at`.
+inline std::size_t line_after(const std::string& text, std::size_t at) {
+  const std::size_t end = text.find('\n', at);
+  if (end == std::string::npos) throw std::logic_error("a starting file lacks lines that are to be replaced");
+  return end + 1;
+}
 
-  /// Replaces the lines between the first one that begins with `beginning` and its closing brace, with two more blanks.
-  void replace_inside(std::string_view beginning, const std::vector<std::string>& instead) {
-    const std::size_t first = find(beginning) + 1;
-    const std::string outside = blanks(lines_[first - 1]);
-    std::size_t last = first;
-    while (last < lines_.size() && !lines_[last].starts_with(outside + "}")) ++last;
-    if (last == lines_.size()) missing("the end of " + std::string(beginning));
-    exchange(first, last, instead, outside + "  ");
-  }
+/// Begin of the first line that has `beginning` after its blanks.
+inline std::size_t line_with(const std::string& text, std::string_view beginning) {
+  std::size_t at = 0;
+  while (!std::string_view(text).substr(std::min(text.find_first_not_of(' ', at), text.size())).starts_with(beginning))
+    at = line_after(text, at);
+  return at;
+}
 
-  std::string text() const {
-    std::string out;
-    for (const std::string& line : lines_) out += line + "\n";
-    return out;
-  }
+inline std::string blanks_at(const std::string& text, std::size_t at) {
+  return std::string(text.find_first_not_of(' ', at) - at, ' ');
+}
 
- private:
-  static std::string blanks(const std::string& line) {
-    return line.substr(0, std::min(line.find_first_not_of(' '), line.size()));
-  }
-  [[noreturn]] static void missing(const std::string& what) {
-    throw std::logic_error("a starting file lacks what is to be replaced: " + what);
-  }
-  std::size_t find(std::string_view beginning) const {
-    for (std::size_t at = 0; at < lines_.size(); ++at)
-      if (std::string_view(lines_[at]).substr(blanks(lines_[at]).size()).starts_with(beginning)) return at;
-    missing(std::string(beginning));
-  }
-  void exchange(std::size_t first, std::size_t last, const std::vector<std::string>& instead,
-                const std::string& before) {
-    std::vector<std::string> indented;
-    for (const std::string& line : instead) indented.push_back(before + line);
-    const auto at = lines_.erase(lines_.begin() + static_cast<std::ptrdiff_t>(first),
-                                 lines_.begin() + static_cast<std::ptrdiff_t>(last));
-    lines_.insert(at, indented.begin(), indented.end());
-  }
+inline void exchange_lines(std::string& text, std::size_t first, std::size_t last, const std::string& before,
+                           const std::vector<std::string>& instead) {
+  std::string lines;
+  for (const std::string& line : instead) lines += before + line + "\n";
+  text.replace(first, last - first, lines);
+}
 
-  std::vector<std::string> lines_;
-};
+/// Replaces `count` lines from the first one that begins with `beginning` after its indentation, which is kept. An
+/// empty `instead` removes them.
+inline void replace_lines(std::string& text, std::string_view beginning, const std::vector<std::string>& instead,
+                          std::size_t count = 1) {
+  const std::size_t first = line_with(text, beginning);
+  std::size_t last = first;
+  for (std::size_t k = 0; k < count; ++k) last = line_after(text, last);
+  exchange_lines(text, first, last, blanks_at(text, first), instead);
+}
+
+/// Replaces the lines between the first one that begins with `beginning` and its closing brace, with two more blanks.
+inline void replace_inside(std::string& text, std::string_view beginning, const std::vector<std::string>& instead) {
+  const std::size_t line = line_with(text, beginning), first = line_after(text, line);
+  const std::string outside = blanks_at(text, line);
+  std::size_t last = first;
+  while (!std::string_view(text).substr(last).starts_with(outside + "}")) last = line_after(text, last);
+  exchange_lines(text, first, last, outside + "  ", instead);
+}
 
 /// Placeholder of the source in starting files.
 inline constexpr std::string_view kSourceToFillIn = "laboratory, person, date";

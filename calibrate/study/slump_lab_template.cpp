@@ -13,13 +13,9 @@
 namespace pastefit {
 namespace {
 
-std::string number_text(double value) {
-  return format("%.6g", value);
-}
-
 std::string reading_line(const CustomaryReading& one, bool last) {
-  return "\"" + one.key + "\": {\"value\": " + number_text(one.value) +
-         ", \"standard_deviation\": " + number_text(one.standard_deviation) + "}" + (last ? "" : ",");
+  return "\"" + one.key + "\": {\"value\": " + shown(one.value) +
+         ", \"standard_deviation\": " + shown(one.standard_deviation) + "}" + (last ? "" : ",");
 }
 
 /// Assumed readings of a slump test: half of the height remains, in a shape between paraboloid and cone.
@@ -42,9 +38,9 @@ std::string plate_line(const SlumpTest& test) {
   const DropPlate& plate = *test.drop;
   std::string line = "// \"drop_plate\": {";
   if (plate.motion == TableMotion::vertical) line += "\"motion\": \"vertical\", ";
-  line += "\"length_mm\": " + number_text(mm * plate.length_m) + ", \"mass_kg\": " + number_text(plate.mass_kg) +
-          ", \"lift_height_mm\": " + number_text(mm * plate.lift_height_m);
-  return line + ", \"drops\": " + std::to_string(plate.drops) + ", \"period_s\": " + number_text(plate.period_s) + "},";
+  line += "\"length_mm\": " + shown(mm * plate.length_m) + ", \"mass_kg\": " + shown(plate.mass_kg) +
+          ", \"lift_height_mm\": " + shown(mm * plate.lift_height_m);
+  return line + ", \"drops\": " + std::to_string(plate.drops) + ", \"period_s\": " + shown(plate.period_s) + "},";
 }
 
 std::string grains_line(const GrainSizes& grains) {
@@ -52,11 +48,11 @@ std::string grains_line(const GrainSizes& grains) {
   // +- 25 %: equal spheres form layers and shear off along them.
   const double smallest = mono ? 0.75 * grains.radius_m : grains.smallest_m;
   const double largest = mono ? 1.25 * grains.radius_m : grains.largest_m;
-  return "\"grains\": {\"distribution\": \"uniform\", \"smallest_mm\": " + number_text(mm * smallest) +
-         ", \"largest_mm\": " + number_text(mm * largest) + "},";
+  return "\"grains\": {\"distribution\": \"uniform\", \"smallest_mm\": " + shown(mm * smallest) +
+         ", \"largest_mm\": " + shown(mm * largest) + "},";
 }
 
-void fill_in(TemplateLines& lines, const std::string& name, const Apparatus& preset) {
+void fill_in(std::string& lab, const std::string& name, const Apparatus& preset) {
   const SlumpTest& test = std::get<SlumpTest>(preset.test);
   constexpr std::size_t width = 116;
   std::vector<std::string> told;
@@ -66,27 +62,28 @@ void fill_in(TemplateLines& lines, const std::string& name, const Apparatus& pre
   };
   tell(preset.title + ". The preset brings its table, speed and grains: give what differs from it.");
   if (!preset.caution.empty()) tell("Note: " + preset.caution + ".");
-  lines.replace("// Give only what differs", told, 2);
-  lines.replace("\"preset\":", {"\"preset\": \"" + name + "\","});
-  lines.replace("// \"mould\":",
-                {"// \"mould\": {\"base_diameter_mm\": " + number_text(2 * mm * test.mould.base_radius_m) +
-                 ", \"top_diameter_mm\": " + number_text(2 * mm * test.mould.top_radius_m) +
-                 ", \"height_mm\": " + number_text(mm * test.mould.height_m) + "},"});
-  lines.replace("// \"table_length_mm\":", {"// \"table_length_mm\": " + number_text(mm * test.table_length_m) + ","});
-  lines.replace("// \"drop_plate\":", {plate_line(test)});
+  replace_lines(lab, "// Give only what differs", told, 2);
+  replace_lines(lab, "\"preset\":", {"\"preset\": \"" + name + "\","});
+  replace_lines(lab, "// \"mould\":",
+                {"// \"mould\": {\"base_diameter_mm\": " + shown(2 * mm * test.mould.base_radius_m) +
+                 ", \"top_diameter_mm\": " + shown(2 * mm * test.mould.top_radius_m) +
+                 ", \"height_mm\": " + shown(mm * test.mould.height_m) + "},"});
+  replace_lines(lab, "// \"table_length_mm\":", {"// \"table_length_mm\": " + shown(mm * test.table_length_m) + ","});
+  replace_lines(lab, "// \"drop_plate\":", {plate_line(test)});
   const bool axis = test.reading.height == HeightReading::axis;
-  lines.replace("// \"reading\":", {"// \"reading\": {\"height\": \"" + std::string(axis ? "axis" : "highest") +
-                                    "\", \"probe_diameter_mm\": " + number_text(mm * test.reading.probe_diameter_m) +
-                                    "},  // axis, or highest: the highest point of the heap"});
-  lines.replace("\"lift_velocity_mm_s\":", {"\"lift_velocity_mm_s\": " + number_text(mm * test.lift_velocity_m_s)});
-  lines.replace("\"material\":",
-                {"\"material\": {\"bulk_density_kg_m3\": " + number_text(test.bulk_density_kg_m3) + "},"});
-  lines.replace("// Equal spheres,", {}, 2);  // examples for a tall cone
-  lines.replace("\"grains\":", {grains_line(test.grains)});
+  replace_lines(lab, "// \"reading\":",
+                {"// \"reading\": {\"height\": \"" + std::string(axis ? "axis" : "highest") +
+                 "\", \"probe_diameter_mm\": " + shown(mm * test.reading.probe_diameter_m) +
+                 "},  // axis, or highest: the highest point of the heap"});
+  replace_lines(lab, "\"lift_velocity_mm_s\":", {"\"lift_velocity_mm_s\": " + shown(mm * test.lift_velocity_m_s)});
+  replace_lines(lab,
+                "\"material\":", {"\"material\": {\"bulk_density_kg_m3\": " + shown(test.bulk_density_kg_m3) + "},"});
+  replace_lines(lab, "// Equal spheres,", {}, 2);  // examples for a tall cone
+  replace_lines(lab, "\"grains\":", {grains_line(test.grains)});
   const auto readings = preset.readings.empty() ? usual_readings(test) : preset.readings;
   std::vector<std::string> measured;
   for (const CustomaryReading& one : readings) measured.push_back(reading_line(one, &one == &readings.back()));
-  lines.replace("\"step1.slump_mm\":", measured, 2);
+  replace_lines(lab, "\"step1.slump_mm\":", measured, 2);
 }
 
 }  // namespace
@@ -96,9 +93,9 @@ Result<std::string> slump_lab_template(const std::string& name, const std::files
   if (!preset.ok()) return preset.faults();
   if (!std::holds_alternative<SlumpTest>(preset.value().test))
     return Fault{"apparatus.preset", in_quotes(name) + " is an apparatus for another test", "name one with a mould"};
-  TemplateLines lines(template_text("lab").value());
-  fill_in(lines, name, preset.value());
-  return lines.text();
+  std::string lab = template_text("lab").value();
+  fill_in(lab, name, preset.value());
+  return lab;
 }
 
 }  // namespace pastefit

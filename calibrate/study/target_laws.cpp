@@ -149,11 +149,11 @@ std::string names_of_laws() {
   return listed(known_laws, &StartingLaws::word);
 }
 
-std::string with_laws(const std::string& study, const TargetLaws& laws) {
-  TemplateLines lines(study);
-  lines.replace("\"contact\":", {"// " + std::string(laws.why) + ".", "\"contact\": " + contact_of(laws).dump() + ","});
-  lines.replace_inside("\"parameters\":", parameter_lines(laws.laws()));
-  return lines.text();
+std::string with_laws(std::string study, const TargetLaws& laws) {
+  replace_lines(study,
+                "\"contact\":", {"// " + std::string(laws.why) + ".", "\"contact\": " + contact_of(laws).dump() + ","});
+  replace_inside(study, "\"parameters\":", parameter_lines(laws.laws()));
+  return study;
 }
 
 nlohmann::ordered_json contact_of(const TargetLaws& laws) {

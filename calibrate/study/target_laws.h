@@ -50,7 +50,7 @@ std::string names_of_laws();
 
 /// Commented starting study of slump tests with its laws replaced by these. Throws std::logic_error if the text has no
 /// "contact" or "parameters".
-std::string with_laws(const std::string& study, const TargetLaws& laws);
+std::string with_laws(std::string study, const TargetLaws& laws);
 
 /// "contact" and "parameters" of a study; `both`: height and spread are fitted.
 nlohmann::ordered_json contact_of(const TargetLaws& laws);
