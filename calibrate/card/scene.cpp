@@ -129,28 +129,17 @@ bool is_of_study(const Setting& setting) {
   return std::ranges::count(own, first) > 0;
 }
 
-/// Name of the first fitted test of a study; empty if its only test has none.
-std::string first_test_of(const json& study) {
-  const auto tests = study.find("tests");
-  if (tests == study.end() || !tests->is_array()) return "";
-  for (const json& test : *tests)
-    if (test.is_object() && test.value("hold_out", json(false)) != true) {
-      const json name = test.value("name", json());
-      return name.is_string() ? name.get<std::string>() : "";
-    }
-  return "";
-}
-
 std::optional<FoundScene> study_scene(const json& document, const SceneSettings& settings, const std::string& name,
                                       const std::filesystem::path& file, Faults& faults) {
-  const std::string wanted = name.empty() ? first_test_of(document) : name;
+  bool changed = false;
   StudyChanges changes;
   changes.of_study = [&](json& study) {
     for (const auto& setting : settings.others)
       if (is_of_study(setting)) apply(setting, study, faults);
   };
-  changes.of_lab = [&](json& lab, const std::string& test) {
-    if (test != wanted) return;
+  changes.of_lab = [&](json& lab, const StudyTest& test) {
+    if (changed || (name.empty() ? test.hold_out : test.name != name)) return;
+    changed = true;
     for (const auto& setting : settings.others)
       if (!is_of_study(setting)) apply(setting, lab, faults);
   };

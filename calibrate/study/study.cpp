@@ -152,7 +152,7 @@ Result<Study> study_from_json(json document, const std::filesystem::path& file, 
     ObjectReader reader(document, "", found);
     reader.known("format");
     reader.text("title", study.title, Need::required);
-    study.tests = read_tests(reader, document, {file.parent_path(), changes.of_lab, in_labs});
+    study.tests = read_tests(reader, {file.parent_path(), changes.of_lab, in_labs});
     const ContactModel laws = read_contact(reader);
     for (StudyTest& test : study.tests) choose(laws, test.lab.test);
     study.parameters = read_parameters(reader, laws, study.tests);

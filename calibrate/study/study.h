@@ -118,7 +118,8 @@ struct Study {
 /// Changes of the contents of a study and its laboratory files before they are read; each may be empty.
 struct StudyChanges {
   std::function<void(nlohmann::json& study)> of_study;
-  std::function<void(nlohmann::json& lab, const std::string& test)> of_lab;  ///< `test`: name in the study
+  /// `test`: as far as it is read before its laboratory file, its name and whether it is held out.
+  std::function<void(nlohmann::json& lab, const StudyTest& test)> of_lab;
 };
 
 /// Reads a study and its laboratory files (paths relative to the study). Errors: every fault of all files, with place

@@ -58,14 +58,14 @@ void read_targets(ObjectReader& document, StudyTest& test) {
 }
 
 /// Reads the name, or the content, of a laboratory file.
-void read_lab_of(ObjectReader& reader, const json& content, const LabReading& labs, StudyTest& test) {
-  const auto given = content.find("lab");
-  const bool in_place = given != content.end() && given->is_object();
+void read_lab_of(ObjectReader& reader, const LabReading& labs, StudyTest& test) {
+  const json* given = reader.content("lab");
+  const bool in_place = given && given->is_object();
   reader.known("lab");
   if (in_place) test.lab_file = "in the study";
   if (!in_place && !reader.text("lab", test.lab_file, Need::required)) return;
   const auto change = [&](json& lab) {
-    if (labs.change) labs.change(lab, test.name);
+    if (labs.change) labs.change(lab, test);
   };
   const auto read_in_place = [&]() -> Result<Lab> {
     json document = *given;
@@ -87,18 +87,17 @@ bool is_name(const std::string& name) {
   });
 }
 
-void read_one_of_many(ObjectReader& reader, const json& content, const LabReading& labs,
-                      std::vector<StudyTest>& tests) {
-  StudyTest test;
+/// `test`: of `tests`, as the last one so far.
+void read_one_of_many(ObjectReader& reader, const LabReading& labs, const std::vector<StudyTest>& tests,
+                      StudyTest& test) {
   if (reader.text("name", test.name, Need::required)) {
     if (!is_name(test.name)) reader.fault("name", in_quotes(test.name), "up to 40 letters, digits, '-', '_' and '.'");
-    if (std::ranges::find(tests, test.name, &StudyTest::name) != tests.end())
+    if (std::ranges::count(tests, test.name, &StudyTest::name) > 1)
       reader.fault("name", in_quotes(test.name) + " is the name of two tests", "a name of its own for each");
   }
   reader.flag("hold_out", test.hold_out, Need::optional);
-  read_lab_of(reader, content, labs, test);
+  read_lab_of(reader, labs, test);
   read_targets(reader, test);
-  tests.push_back(std::move(test));
 }
 
 }  // namespace
@@ -132,33 +131,25 @@ Fault no_such_test(const std::string& name, const std::vector<std::string>& name
           known.empty() ? "leave it out: the only test has no name" : "one of: " + known};
 }
 
-std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, const LabReading& labs) {
+std::vector<StudyTest> read_tests(ObjectReader& document, const LabReading& labs) {
   std::vector<StudyTest> tests;
   if (!document.has("tests")) {
     StudyTest& only = tests.emplace_back();
-    read_lab_of(document, study, labs, only);
+    read_lab_of(document, labs, only);
     read_targets(document, only);
     return tests;
   }
-  document.known("tests");
   document.refuse("lab", "stands beside \"tests\"", "name the laboratory file in the tests");
   document.refuse("weights", "stand beside \"tests\"", "give each test weights of its own");
   document.refuse("tolerances", "stand beside \"tests\"", "give each test tolerances of its own");
-  const json& list = study["tests"];
+  const json& list = *document.content("tests");
   if (!list.is_array() || list.empty() || list.size() > most_tests) {
-    document.fault("tests", "is not a list of 1 to " + std::to_string(most_tests) + " tests",
-                   "[ {\"name\": \"slow\", \"lab\": \"slow.json\"}, ... ]");
+    document.refuse("tests", "is not a list of 1 to " + std::to_string(most_tests) + " tests",
+                    "[ {\"name\": \"slow\", \"lab\": \"slow.json\"}, ... ]");
     return tests;
   }
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string place = "tests[" + std::to_string(i) + "]";
-    if (!list[i].is_object()) {
-      document.fault(place, "is not an object", "{\"name\": \"slow\", \"lab\": \"slow.json\"}");
-      continue;
-    }
-    ObjectReader reader(list[i], place, document.faults());
-    read_one_of_many(reader, list[i], labs, tests);
-  }
+  document.list("tests", tests, Need::required,
+                [&](ObjectReader& one, StudyTest& test) { read_one_of_many(one, labs, tests, test); });
   std::stable_partition(tests.begin(), tests.end(), [](const StudyTest& test) { return !test.hold_out; });
   if (!tests.empty() && tests.front().hold_out)
     document.fault("tests", "all are held out, so nothing is fitted", "leave \"hold_out\" out in at least one");

@@ -34,14 +34,14 @@ Fault no_such_test(const std::string& name, const std::vector<std::string>& name
 /// How to read the laboratory files of a study.
 struct LabReading {
   std::filesystem::path folder;  ///< of the study
-  std::function<void(nlohmann::json& lab, const std::string& test)> change;
+  std::function<void(nlohmann::json& lab, const StudyTest& test)> change;
   Faults& faults;  ///< of these files; their places begin with the file name
 };
 
 /// Reads "lab", "weights" and "tolerances" of a study of one test, or "tests", a list of {"name", "lab", "weights",
 /// "tolerances", "hold_out"}. Held-out tests are moved to the end: the first test, whose grains the card's material
 /// refers to, is fitted.
-std::vector<StudyTest> read_tests(ObjectReader& document, const nlohmann::json& study, const LabReading& labs);
+std::vector<StudyTest> read_tests(ObjectReader& document, const LabReading& labs);
 
 /// Index of the test with this name, in a study or card. Error: no such test; the fault lists the names.
 Result<std::size_t> place_of_test(const auto& tests, const std::string& name) {
