@@ -11,21 +11,14 @@ namespace pastefit {
 namespace {
 
 using nlohmann::json;
-using Words = std::set<std::string, std::less<>>;
 
 constexpr double largest_whole = 9007199254740992;  // 2^53: whole numbers are exact in a double up to here
 
-std::string listed(const Words& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + in_quotes(word);
-  return list;
-}
-
 /// Advice for a key that is known in another unit; may be empty.
-std::string in_unit_of_files(std::string_view key, const Words& known) {
+std::string in_unit_of_files(std::string_view key, const Names& known) {
   const std::optional<Unit> unit = unit_of_key(key);
   if (!unit) return "";
-  Words of_quantity;
+  Names of_quantity;
   for (const std::string& word : known) {
     const std::optional<Unit> own = unit_of_key(word);
     if (own && own->key == unit->key && own->factor == 1) of_quantity.insert(word);
@@ -88,9 +81,8 @@ ObjectReader::ObjectReader(const json& value, std::string place, Faults& faults)
 ObjectReader::~ObjectReader() {
   for (const auto& [key, value] : object_.items()) {
     if (known_.contains(key)) continue;
-    const std::optional<std::string> near = nearest(key, known_);
     std::string remedy = in_unit_of_files(key, known_);
-    if (remedy.empty()) remedy = near ? "did you mean " + in_quotes(*near) + "?" : "known here: " + listed(known_);
+    if (remedy.empty()) remedy = did_you_mean(key, known_, "known here: " + listed(known_, in_quotes));
     faults_.push_back({joined(place_, printable(key)), std::string(unknown_key), std::move(remedy)});
   }
 }
@@ -303,10 +295,10 @@ const json* ObjectReader::find(std::string_view key, Need need) {
   return nullptr;
 }
 
-std::string ObjectReader::remedy_of(const json& value, const std::set<std::string, std::less<>>& keys) {
+std::string ObjectReader::remedy_of(const json& value, const Names& keys) {
   if (keys.empty()) return "an object { ... }";
   if (keys.size() == 1 && value.is_number()) return "write {" + in_quotes(*keys.begin()) + ": " + value.dump() + "}";
-  return "an object { ... } with " + listed(keys);
+  return "an object { ... } with " + listed(keys, in_quotes);
 }
 
 bool ObjectReader::check_number(std::string_view place, const json& value, const Range& range) {
@@ -335,10 +327,10 @@ std::optional<std::size_t> ObjectReader::word(std::string_view key, std::span<co
   const std::string* text = value->get_ptr<const std::string*>();
   const auto found = text ? std::find(words.begin(), words.end(), *text) : words.end();
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  const Words names(words.begin(), words.end());
+  const Names names(words.begin(), words.end());
   const std::optional<std::string> near = text ? nearest(*text, names) : std::nullopt;
   fault(key, "is " + text_of(*value),
-        (near ? "did you mean " + in_quotes(*near) + "? Known: " : "one of ") + listed(names));
+        (near ? "did you mean " + in_quotes(*near) + "? Known: " : "one of ") + listed(names, in_quotes));
   return std::nullopt;
 }
 

@@ -194,7 +194,7 @@ class ObjectReader {
     return nullptr;
   }
   /// Advice for a value that is not an object with these keys.
-  static std::string remedy_of(const nlohmann::json& value, const std::set<std::string, std::less<>>& keys);
+  static std::string remedy_of(const nlohmann::json& value, const Names& keys);
   /// Index of the word; a fault if there is none.
   std::optional<std::size_t> word(std::string_view key, std::span<const std::string_view> words, Need need);
   bool check_number(std::string_view place, const nlohmann::json& value, const Range& range);
@@ -202,7 +202,7 @@ class ObjectReader {
   const nlohmann::json& object_;
   std::string place_;
   Faults& faults_;
-  std::set<std::string, std::less<>> known_;
+  Names known_;
 };
 
 /// `entries` whose values are objects, each described by `body(fields, one)`.

@@ -159,7 +159,7 @@ std::string small_letters(std::string_view text) {
   return out;
 }
 
-std::optional<std::string> nearest(std::string_view word, const std::set<std::string, std::less<>>& candidates) {
+std::optional<std::string> nearest(std::string_view word, const Names& candidates) {
   constexpr std::size_t longest = 200;  // longer words are no typing errors, and the distance is quadratic
   if (word.size() > longest) return std::nullopt;
   const std::string* best = nullptr;
@@ -173,6 +173,11 @@ std::optional<std::string> nearest(std::string_view word, const std::set<std::st
   }
   if (!best || best_distance > std::max<std::size_t>(2, std::max(word.size(), best->size()) / 2)) return std::nullopt;
   return *best;
+}
+
+std::string did_you_mean(std::string_view word, const Names& known, std::string otherwise) {
+  const std::optional<std::string> near = nearest(word, known);
+  return near ? "did you mean " + in_quotes(*near) + "?" : otherwise;
 }
 
 std::string in_quotes(std::string_view text) {

@@ -67,9 +67,33 @@ inline std::string shown(double number) {
 /// Converts ASCII letters to small letters.
 std::string small_letters(std::string_view text);
 
+/// The words of some rows, with `between` between two.
+template <class Rows, class Word = std::identity>
+std::string listed(const Rows& rows, Word word = {}, std::string_view between = ", ") {
+  std::string out;
+  for (const auto& row : rows) {
+    if (!out.empty()) out += between;
+    out += std::invoke(word, row);
+  }
+  return out;
+}
+
+using Names = std::set<std::string, std::less<>>;
+
+/// The names of some rows.
+template <class Rows, class Name = std::identity>
+Names names_of(const Rows& rows, Name name = {}) {
+  Names out;
+  for (const auto& row : rows) out.emplace(std::invoke(name, row));
+  return out;
+}
+
 /// Candidate with the smallest edit distance to `word`, ignoring case; nothing if none is near enough for a typing
 /// error.
-std::optional<std::string> nearest(std::string_view word, const std::set<std::string, std::less<>>& candidates);
+std::optional<std::string> nearest(std::string_view word, const Names& candidates);
+
+/// Remedy for an unknown name: the nearest one that is known, or other advice.
+std::string did_you_mean(std::string_view word, const Names& known, std::string otherwise);
 
 /// User text in quotes, truncated if long, with control characters escaped.
 std::string in_quotes(std::string_view text);

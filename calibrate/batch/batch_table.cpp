@@ -89,9 +89,7 @@ ordered_json parameter_columns(const Card& card) {
 std::string reasons_of(const Card& card) {
   std::vector<std::string> reasons = reservations_on(card);
   if (card.search.status != name_of(CalibrationStatus::confirmed)) reasons.insert(reasons.begin(), card.search.reason);
-  std::string out;
-  for (const std::string& reason : reasons) out += (out.empty() ? "" : "; ") + reason;
-  return out;
+  return listed(reasons, {}, "; ");
 }
 
 /// Simulations and processor time in the store.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/text.h"
@@ -34,13 +33,7 @@ void read_parameter(const Setting& setting, SceneSettings& settings, Faults& fau
   const auto name = setting.path.substr(kParameters.size());
   const auto kind = std::ranges::find(kinds, name, &ParameterKind::name);
   const std::string where = "--set " + setting.path;
-  if (kind == kinds.end()) {
-    std::set<std::string, std::less<>> names;
-    for (const auto& known : kinds) names.emplace(known.name);
-    const auto near = nearest(name, names);
-    faults.push_back({where, "there is no such parameter", near ? "did you mean \"" + *near + "\"?" : "see --help"});
-    return;
-  }
+  if (kind == kinds.end()) return faults.push_back(no_such_parameter(where, name));
   const Range range{kind->smallest, kind->largest};
   const double value = setting.value.is_number() ? setting.value.get<double>() : 0;
   if (!setting.value.is_number() || !(value >= range.smallest && value <= range.largest))
@@ -66,18 +59,15 @@ SceneSettings read_scene_settings(const std::vector<std::string>& texts, Faults&
 /// A single word that is neither a parameter nor a section of a file is an error, mostly a misspelt parameter. It is
 /// reported and removed, so that all other faults are found, too.
 void take_out_slips(SceneSettings& settings, const json& document, Faults& faults) {
-  std::set<std::string, std::less<>> known{"title",    "test",   "provenance",   "apparatus",
-                                           "material", "grains", "measurements", "confirmed"};
-  for (const auto& kind : parameter_kinds()) known.emplace(kind.name);
+  Names known = names_of(parameter_kinds(), &ParameterKind::name);
+  known.insert({"title", "test", "provenance", "apparatus", "material", "grains", "measurements", "confirmed"});
   std::erase_if(settings.others, [&](const Setting& setting) {
     const std::string& word = setting.path;
     if (word.find_first_of(".[") != std::string::npos || known.contains(word) ||
         (document.is_object() && document.contains(word)))
       return false;
-    const auto near = nearest(word, known);
-    faults.push_back(
-        {"--set " + printable(word), "is neither a parameter nor a section of the file",
-         near ? "did you mean " + in_quotes(*near) + "?" : "e.g. --set friction=0.3 or grains.radius_mm=6"});
+    faults.push_back({"--set " + printable(word), "is neither a parameter nor a section of the file",
+                      did_you_mean(word, known, "e.g. --set friction=0.3 or grains.radius_mm=6")});
     return true;
   });
 }

@@ -201,7 +201,7 @@ int write_one(const NewOptions& options, const Start& start) {
   return kDone;
 }
 
-std::string listed(const std::vector<std::string>& words) {
+std::string listed_briefly(const std::vector<std::string>& words) {
   constexpr std::size_t most = 20;
   std::string list;
   for (std::size_t i = 0; i < std::min(most, words.size()); ++i) list += (i == 0 ? "" : ", ") + words[i];
@@ -231,7 +231,7 @@ Faults in_lines(const std::vector<std::pair<std::size_t, Fault>>& found) {
     lines[at].push_back(std::to_string(one.first));
   }
   for (std::size_t i = 0; i < faults.size(); ++i)
-    faults[i].where = (lines[i].size() == 1 ? "line " : "lines ") + listed(lines[i]) + ": " + faults[i].where;
+    faults[i].where = (lines[i].size() == 1 ? "line " : "lines ") + listed_briefly(lines[i]) + ": " + faults[i].where;
   return faults;
 }
 
@@ -256,7 +256,7 @@ int new_from_table(const NewOptions& options) {
   }
   append(of_table, in_file(in_lines(found), options.table));
   const auto said = [](const char* what, const std::vector<std::string>& words) {
-    if (!words.empty()) note("%s: %s\n", what, one_line(listed(words)).c_str());
+    if (!words.empty()) note("%s: %s\n", what, one_line(listed_briefly(words)).c_str());
   };
   said("columns of the mix", mix);
   said("columns ignored", unused);

@@ -47,8 +47,7 @@ int print_template(TemplateOptions options, const std::string& names) {
 }  // namespace
 
 Command add_template(CLI::App& verb) {
-  std::string names;
-  for (const auto& name : template_names()) names += (names.empty() ? "" : ", ") + name;
+  const std::string names = listed(template_names());
   const auto options = std::make_shared<TemplateOptions>();
   verb.add_option("NAME", options->name, "which one: " + names)->required();
   verb.add_option("--for", options->target, "study with laws that this program has: " + names_of_targets())

@@ -156,9 +156,7 @@ std::size_t holding(const Study& study, const Store& store) {
 }
 
 std::string changed_places(const Store& store) {
-  std::string out;
-  for (const auto& place : store.changes()) out += (out.empty() ? "" : ", ") + place;
-  return out;
+  return listed(store.changes());
 }
 
 Faults strangers_in(const Study& study, const Store& store, const std::string& file) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <set>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -48,18 +47,13 @@ std::span<const Exporter> exporters() {
 Result<Exporter> exporter_named(const std::string& name) {
   const auto known = exporters();
   if (const auto found = std::ranges::find(known, name, &Exporter::name); found != known.end()) return *found;
-  std::set<std::string, std::less<>> names;
-  std::string list;
-  for (const auto& one : known) {
-    names.emplace(one.name);
-    list += (list.empty() ? "" : ", ") + std::string(one.name);
-  }
+  const Names names = names_of(known, &Exporter::name);
   const std::string small = small_letters(name);
   auto near = nearest(small, names);
   for (const std::string& one : names)
     if (!small.empty() && one.starts_with(small) && (!near || *near != small)) near = one;
   return Fault{"--to " + printable(name), "is not an export target",
-               near ? "did you mean '" + *near + "'?" : "one of " + list};
+               near ? "did you mean '" + *near + "'?" : "one of " + listed(known, &Exporter::name)};
 }
 
 std::string title_of(const Card& card, const CardTest& test) {

@@ -21,10 +21,9 @@ template <class T, std::size_t N>
 void look(T chosen, const std::vector<T>& known, const std::array<Named<T>, N>& words, const std::string& place,
           const std::string& key, std::string_view target, Faults& faults) {
   if (std::ranges::count(known, chosen) > 0) return;
-  std::string list;
-  for (const T one : known) list += (list.empty() ? "" : " or ") + in_quotes(word_of(one, words));
-  faults.push_back({place, "is " + in_quotes(word_of(chosen, words)) + ", which " + std::string(target) + " lacks",
-                    "export to another target, or calibrate with " + key + " " + list});
+  const auto quoted = [&](T one) { return in_quotes(word_of(one, words)); };
+  faults.push_back({place, "is " + quoted(chosen) + ", which " + std::string(target) + " lacks",
+                    "export to another target, or calibrate with " + key + " " + listed(known, quoted, " or ")});
 }
 
 /// Force at an overlap during separation [N], repulsion positive.

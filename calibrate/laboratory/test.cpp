@@ -108,9 +108,7 @@ std::optional<Test> test_of_kind(std::string_view word) {
 }
 
 Fault no_such_kind(std::string where, std::string_view word) {
-  std::string known;
-  for (const std::string_view kind : kinds_of_tests()) known += (known.empty() ? "" : ", ") + std::string(kind);
-  return {std::move(where), "there is no test " + in_quotes(word), "one of: " + known};
+  return {std::move(where), "there is no test " + in_quotes(word), "one of: " + listed(kinds_of_tests())};
 }
 
 std::vector<std::string> template_names() {

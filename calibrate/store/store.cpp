@@ -236,10 +236,8 @@ struct Store::State {
     if (known != written)
       remarks.push_back("of " + std::to_string(written) + " evaluations that were written, " + std::to_string(known) +
                         " are there");
-    std::string numbers;
-    for (const auto& one : damaged) numbers += (numbers.empty() ? "" : ", ") + one;
     if (!damaged.empty())
-      remarks.push_back("damaged and set aside, to be simulated again if asked for: evaluation " + numbers);
+      remarks.push_back("damaged and set aside, to be simulated again if asked for: evaluation " + listed(damaged));
     const auto inputs = database.run("SELECT * FROM inputs ORDER BY epoch DESC LIMIT 1");
     if (!inputs.empty()) demand_columns(inputs[0], 3);
     if (inputs.empty() || !agrees(inputs[0])) throw std::runtime_error("its record of the study is missing or damaged");

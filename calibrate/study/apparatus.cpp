@@ -11,6 +11,7 @@
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/machine.h"
+#include "calibrate/base/refusal.h"
 #include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
@@ -77,28 +78,6 @@ std::map<std::string, fs::path> preset_files(const fs::path& folder) {
   return files;
 }
 
-std::optional<Apparatus> read_preset(const std::string& name, const fs::path& folder, ObjectReader& apparatus) {
-  const auto files = preset_files(folder);
-  if (const auto file = files.find(name); file != files.end()) {
-    Result<Apparatus> found = read_apparatus_file(file->second);
-    if (found) return std::move(found).value();
-    Faults& faults = apparatus.faults();
-    faults.insert(faults.end(), found.faults().begin(), found.faults().end());
-    return std::nullopt;
-  }
-  std::set<std::string, std::less<>> known;
-  std::string list;
-  for (const auto& [word, file] : files) {
-    known.insert(word);
-    list += (list.empty() ? "" : ", ") + word;
-  }
-  const std::optional<std::string> near = nearest(name, known);
-  apparatus.fault("preset", "there is no preset " + json(name).dump(),
-                  (near ? "did you mean \"" + *near + "\"? Presets: " : "presets: ") +
-                      (list.empty() ? "none found; set PASTEFIT_DATA_DIR to the data folder of pastefit" : list));
-  return std::nullopt;
-}
-
 /// Reads "readings", whose keys are those of laboratory files.
 void read_customary(ObjectReader& document, Apparatus& apparatus) {
   document.object("readings", Need::optional, [&](ObjectReader& readings) {
@@ -150,16 +129,14 @@ std::vector<std::string> preset_names(const fs::path& folder) {
 }
 
 Result<Apparatus> find_preset(const std::string& name, const fs::path& folder) {
-  Faults faults;
-  const json named{{"preset", name}};
-  std::optional<Apparatus> found;
-  {
-    ObjectReader reader(named, "apparatus", faults);
-    reader.known("preset");
-    found = read_preset(name, folder, reader);
-  }
-  if (!found) return faults;
-  return std::move(*found);
+  const auto files = preset_files(folder);
+  if (const auto file = files.find(name); file != files.end()) return read_apparatus_file(file->second);
+  const Names known = names_of(preset_names(folder));
+  const std::optional<std::string> near = nearest(name, known);
+  return Fault{
+      "apparatus.preset", "there is no preset " + in_quotes(name),
+      (near ? "did you mean " + in_quotes(*near) + "? Presets: " : "presets: ") +
+          (known.empty() ? "none found; set PASTEFIT_DATA_DIR to the data folder of pastefit" : listed(known))};
 }
 
 std::string preset_of_standard(const std::string& name, const fs::path& folder) {
@@ -276,7 +253,11 @@ std::optional<Apparatus> read_apparatus(ObjectReader& document, Test& test, cons
     std::string name;
     if (folder) apparatus.known("preset");
     const bool named = folder && apparatus.has("preset");
-    if (named && apparatus.text("preset", name, Need::required)) preset = read_preset(name, *folder, apparatus);
+    if (named && apparatus.text("preset", name, Need::required)) {
+      Result<Apparatus> found = find_preset(name, *folder);
+      append(apparatus.faults(), found);
+      if (found.ok()) preset = std::move(found).value();
+    }
     if (preset && preset->test.index() != test.index())
       apparatus.fault("preset", in_quotes(name) + " is an apparatus for another test", "name one for this test");
     else if (preset)

@@ -1,9 +1,9 @@
 #include "calibrate/study/settings.h"
 
+#include <algorithm>
 #include <charconv>
 #include <functional>
 #include <regex>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -31,13 +31,8 @@ json* step_into(json& place, const std::string& step) {
 
 /// Fault of a bound that the study does not have.
 Fault no_such_bound(const std::string& path, const std::string& parameter) {
-  std::set<std::string, std::less<>> names;
-  for (const ParameterKind& kind : parameter_kinds()) names.emplace(kind.name);
-  if (!names.contains(parameter)) {
-    const auto near = nearest(parameter, names);
-    return {"--set " + path, "there is no such parameter",
-            near ? "did you mean " + in_quotes(*near) + "?" : "a name of the manual's page on parameters"};
-  }
+  if (std::ranges::count(parameter_kinds(), parameter, &ParameterKind::name) == 0)
+    return no_such_parameter("--set " + path, parameter);
   return {"--set " + path, "is a bound of a parameter that is not free in the study",
           "--set 'parameters." + parameter + "={\"free\": [LOWER, UPPER]}'"};
 }
@@ -60,6 +55,12 @@ void apply_to_study(Setting setting, json& study, Faults& faults) {
 }
 
 }  // namespace
+
+Fault no_such_parameter(std::string where, std::string_view name) {
+  return {std::move(where), "there is no such parameter",
+          did_you_mean(name, names_of(parameter_kinds(), &ParameterKind::name),
+                       "a name of the manual's page on parameters")};
+}
 
 std::vector<Setting> read_settings(const std::vector<std::string>& texts, Faults& faults) {
   std::vector<Setting> settings;

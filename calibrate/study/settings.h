@@ -16,6 +16,8 @@ struct Setting {
   nlohmann::json value;
 };
 
+Fault no_such_parameter(std::string where, std::string_view name);
+
 /// Parses texts "path=value", as given to --set. A value that is not JSON is a text. Errors: no path; control
 /// characters, or bytes that are not UTF-8.
 std::vector<Setting> read_settings(const std::vector<std::string>& texts, Faults& faults);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <set>
 
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/json_reader.h"
@@ -207,9 +206,7 @@ std::optional<std::string> meant_reading(std::string_view name, std::span<const 
   for (const ReadingKind& kind : of_test)
     if (!kind.from_outline && (kind.key.ends_with(end) || kind.key.substr(0, kind.key.rfind('_')).ends_with(end)))
       return std::string(kind.key);
-  std::set<std::string, std::less<>> names;
-  for (const ShortReading& one : shorts) names.emplace(one.name);
-  return nearest(name, names);
+  return nearest(name, names_of(shorts, &ShortReading::name));
 }
 
 /// "measurements" from the sheet.

@@ -88,15 +88,11 @@ constexpr std::array<TargetLaws, 9> known_targets{{
 }};
 
 template <class List>
-std::string listed(const List& list, std::string_view List::value_type::*name) {
+std::string listed_once(const List& list, std::string_view List::value_type::*name) {
   std::vector<std::string_view> words;
-  std::string out;
-  for (const auto& one : list) {
-    if (std::ranges::count(words, one.*name) > 0) continue;
-    words.push_back(one.*name);
-    out += (out.empty() ? "" : ", ") + std::string(one.*name);
-  }
-  return out;
+  for (const auto& one : list)
+    if (std::ranges::count(words, one.*name) == 0) words.push_back(one.*name);
+  return listed(words);
 }
 
 /// Lines of "parameters" in a study, each with its meaning.
@@ -142,11 +138,11 @@ Fault no_such_laws(std::string_view target, std::string_view law) {
 }
 
 std::string names_of_targets() {
-  return listed(known_targets, &TargetLaws::target);
+  return listed_once(known_targets, &TargetLaws::target);
 }
 
 std::string names_of_laws() {
-  return listed(known_laws, &StartingLaws::word);
+  return listed_once(known_laws, &StartingLaws::word);
 }
 
 std::string with_laws(std::string study, const TargetLaws& laws) {

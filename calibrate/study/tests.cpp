@@ -125,8 +125,7 @@ std::vector<StudyReading> readings_of(const Study& study) {
 }
 
 Fault no_such_test(const std::string& name, const std::vector<std::string>& names) {
-  std::string known;
-  for (const auto& one : names) known += (known.empty() ? "" : ", ") + one;
+  const std::string known = listed(names);
   return {"--test " + printable(name), "there is no such test",
           known.empty() ? "leave it out: the only test has no name" : "one of: " + known};
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <string>
 #include <system_error>
 
@@ -139,16 +138,11 @@ constexpr std::size_t kMostPoints = 100'000;
 void read_formula(ObjectReader& reader, ByFormula& by) {
   std::string name;
   if (reader.text("formula", name, Need::required)) {
-    std::set<std::string, std::less<>> names;
-    for (const Formula& formula : formulas()) {
-      names.emplace(formula.name);
+    for (const Formula& formula : formulas())
       if (formula.name == name) by.formula = &formula;
-    }
-    if (!by.formula) {
-      const auto near = nearest(name, names);
+    if (!by.formula)
       reader.fault("formula", "there is no formula " + in_quotes(name),
-                   near ? "did you mean " + in_quotes(*near) + "?" : "see pastefit verify --formulas");
-    }
+                   did_you_mean(name, names_of(formulas(), &Formula::name), "see pastefit verify --formulas"));
   }
   int grain = 0, axis = 0;
   if (reader.integer("grain", grain, 0, 1, Need::optional)) by.arguments.grain = static_cast<std::size_t>(grain);
