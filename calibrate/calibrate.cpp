@@ -4,7 +4,6 @@
 #include <deque>
 #include <limits>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "calibrate/calibrator.h"

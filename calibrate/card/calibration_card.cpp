@@ -1,7 +1,5 @@
 #include "calibrate/card/calibration_card.h"
 
-#include <algorithm>
-
 #include "calibrate/base/machine.h"
 #include "calibrate/base/statistics.h"
 #include "calibrate/evaluate/record.h"

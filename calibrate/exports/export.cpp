@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "calibrate/base/text.h"

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "calibrate/exports/export.h"
-#include "calibrate/laboratory/names.h"
 
 namespace pastefit {
 

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <numbers>
 
 #include "calibrate/base/embedded_text.h"

@@ -4,10 +4,8 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/default_answers.h"
 #include "calibrate/laboratory/dimension_json.h"
 #include "calibrate/laboratory/drawing.h"

@@ -1,15 +1,11 @@
 #pragma once
 
 #include <concepts>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/dimension_json.h"
 #include "calibrate/laboratory/drawing.h"
-#include "calibrate/laboratory/specimen_json.h"
 #include "core/apparatus/pellet_crush/pellet_crush.h"
 #include "core/apparatus/shear_cell/shear_cell.h"
 

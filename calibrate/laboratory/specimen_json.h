@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "calibrate/laboratory/names.h"
-#include "core/apparatus/dimension.h"
 #include "core/apparatus/specimen.h"
 #include "core/laws/materials.h"
 

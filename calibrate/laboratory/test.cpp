@@ -1,6 +1,5 @@
 #include "calibrate/laboratory/test.h"
 
-#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 

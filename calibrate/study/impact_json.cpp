@@ -1,6 +1,5 @@
 #include "calibrate/study/impact_json.h"
 
-#include <algorithm>
 #include <numbers>
 
 #include "calibrate/base/json_reader.h"

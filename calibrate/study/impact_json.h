@@ -1,8 +1,6 @@
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "core/apparatus/impact/impact.h"
 #include "core/result.h"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <string_view>
 
 #include "calibrate/base/object_schema.h"
 #include "calibrate/study/parameters.h"

@@ -1,7 +1,6 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
-#include <utility>
 #include <vector>
 
 #include "calibrate/base/template_lines.h"

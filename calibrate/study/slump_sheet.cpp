@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "calibrate/base/input_file.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"

@@ -1,7 +1,6 @@
 #include "calibrate/study/study.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
