@@ -10,10 +10,11 @@
 #include "calibrate/card/card_description.h"
 
 namespace pastefit {
-namespace card_fields {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
+
+namespace card_fields {
 
 BaselineColumns baseline_columns(const Baseline& baseline) {
   BaselineColumns columns;
@@ -120,18 +121,6 @@ std::string format_of(int version) {
   return std::string(prefix) + std::to_string(version);
 }
 
-/// All known parameters with the values of a card that does not list them.
-std::vector<Parameter> default_parameters() {
-  std::vector<Parameter> parameters;
-  for (const ParameterKind& kind : parameter_kinds()) {
-    Parameter& one = parameters.emplace_back();
-    one.name = kind.name;
-    one.value = kind.default_value;
-    one.scale = kind.scale;
-  }
-  return parameters;
-}
-
 void rename(json& object, const char* before, const char* now) {
   if (!object.is_object() || !object.contains(before)) return;
   json value = std::move(object[before]);
@@ -236,11 +225,6 @@ Faults differing_forms(const Card& card) {
 }  // namespace
 }  // namespace card_fields
 
-namespace {
-using nlohmann::json;
-using nlohmann::ordered_json;
-}  // namespace
-
 bool is_card(const json& document) {
   const auto format = document.is_object() ? document.value("format", json()) : json();
   return format.is_string() && format.get_ref<const std::string&>().starts_with(card_fields::prefix);
@@ -260,7 +244,7 @@ Result<Card> card_from_json(const json& document) {
   json present = document;
   if (document["format"] == card_fields::format_of(5)) card_fields::translate_from_5(present);
   Card read;
-  read.material.parameters = card_fields::default_parameters();
+  read.material.parameters = default_parameters();
   {
     ObjectReader reader(present, "", faults);
     reader.known("format");
@@ -283,7 +267,7 @@ ordered_json card_schema() {
   schema.constant({"format", "kind of file and version of its format"}, card_fields::format_of(kCardVersion),
                   Need::required);
   Card any;
-  any.material.parameters = card_fields::default_parameters();
+  any.material.parameters = default_parameters();
   card_fields::describe_card(schema, any);
   return document_schema(
       "pastefit material card",

@@ -65,9 +65,7 @@ ContactModel read_contact(ObjectReader& document) {
 
 std::vector<Parameter> read_parameters(ObjectReader& document, const ContactModel& laws,
                                        const std::vector<StudyTest>& tests) {
-  std::vector<Parameter> parameters;
-  for (const ParameterKind& kind : parameter_kinds())
-    parameters.push_back({std::string(kind.name), false, kind.default_value, 0, 0, kind.scale});
+  std::vector<Parameter> parameters = default_parameters();
   document.object("parameters", Need::required, [&](ObjectReader& reader) {
     bool any_free = false;
     reader.refuse("offset_ratio", "is a key of earlier programs",
@@ -107,21 +105,11 @@ void choose(const ContactModel& laws, Test& test) {
   contact.friction_basis = laws.friction_basis;
 }
 
-/// Point of the unit cube with the largest overlaps: every free parameter at its upper bound, the stiffness at its
-/// lower.
-std::vector<double> most_squeezed(const Study& study) {
+/// Corner of the unit cube: one parameter at an end of its bounds, the other free ones at the other end.
+std::vector<double> corner(const Study& study, std::string_view name, double end) {
   std::vector<double> point;
   for (const Parameter& parameter : study.parameters)
-    if (parameter.free) point.push_back(parameter.name == "youngs_modulus_pa" ? 0 : 1);
-  return point;
-}
-
-/// Point of the unit cube with the softest grains in the most viscous liquid: every free parameter at its lower bound,
-/// the viscosity at its upper.
-std::vector<double> thickest(const Study& study) {
-  std::vector<double> point;
-  for (const Parameter& parameter : study.parameters)
-    if (parameter.free) point.push_back(parameter.name == "viscosity_pa_s" ? 1 : 0);
+    if (parameter.free) point.push_back(parameter.name == name ? end : 1 - end);
   return point;
 }
 
@@ -129,9 +117,11 @@ std::vector<double> thickest(const Study& study) {
 Faults validate_points(const Study& study) {
   const auto free = static_cast<std::size_t>(free_count(study));
   using Point = std::vector<double>;
-  std::vector<Point> points{Point(free, 0.5), Point(free, 0.0), Point(free, 1.0), most_squeezed(study)};
+  const Point largest_overlaps = corner(study, "youngs_modulus_pa", 0);
+  std::vector<Point> points{Point(free, 0.5), Point(free, 0.0), Point(free, 1.0), largest_overlaps};
   const auto is_viscosity = [](const Parameter& one) { return one.free && one.name == "viscosity_pa_s"; };
-  if (std::ranges::any_of(study.parameters, is_viscosity)) points.insert(points.begin(), thickest(study));
+  if (std::ranges::any_of(study.parameters, is_viscosity))  // the softest grains in the most viscous liquid
+    points.insert(points.begin(), corner(study, "viscosity_pa_s", 1));
   for (const Point& point : points) {
     const std::vector<double> values = values_at(study, point);
     for (const StudyTest& test : study.tests)
@@ -141,6 +131,13 @@ Faults validate_points(const Study& study) {
 }
 
 }  // namespace
+
+std::vector<Parameter> default_parameters() {
+  std::vector<Parameter> parameters;
+  for (const ParameterKind& kind : parameter_kinds())
+    parameters.push_back({std::string(kind.name), false, kind.default_value, 0, 0, kind.scale});
+  return parameters;
+}
 
 Result<Study> study_from_json(json document, const std::filesystem::path& file, const StudyChanges& changes) {
   if (changes.of_study) changes.of_study(document);

@@ -72,6 +72,9 @@ struct Parameter {
   bool stated = false;                        ///< given in the study; otherwise `value` is the default
 };
 
+/// Every known parameter, fixed at its default value.
+std::vector<Parameter> default_parameters();
+
 struct Target {
   std::string reading;
   double weight = 1;                               ///< in the fit; 0: reported, not fitted
