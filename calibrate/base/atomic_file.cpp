@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <map>
 
 namespace pastefit {
 
@@ -51,22 +52,13 @@ int open_beside(const std::filesystem::path& file, std::filesystem::path& beside
 }  // namespace
 
 std::string kind_of_special_file(const std::filesystem::path& path) {
+  using Type = std::filesystem::file_type;
+  static const std::map<Type, std::string> kinds{{Type::directory, "a folder"}, {Type::symlink, "a symbolic link"},
+                                                 {Type::block, "a device"},     {Type::character, "a device"},
+                                                 {Type::fifo, "a FIFO"},        {Type::socket, "a socket"}};
   std::error_code error;
-  switch (std::filesystem::symlink_status(path, error).type()) {
-    case std::filesystem::file_type::directory:
-      return "a folder";
-    case std::filesystem::file_type::symlink:
-      return "a symbolic link";
-    case std::filesystem::file_type::block:
-    case std::filesystem::file_type::character:
-      return "a device";
-    case std::filesystem::file_type::fifo:
-      return "a FIFO";
-    case std::filesystem::file_type::socket:
-      return "a socket";
-    default:
-      return "";
-  }
+  const auto found = kinds.find(std::filesystem::symlink_status(path, error).type());
+  return found == kinds.end() ? "" : found->second;
 }
 
 Faults write_atomically(const std::filesystem::path& file, std::string_view content) {

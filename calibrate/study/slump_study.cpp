@@ -16,15 +16,6 @@ bool is_dry(const ordered_json& measurements) {
   return measurements.contains("step1.angle_of_repose_deg");
 }
 
-/// Same as in the template of the lifted cylinder.
-ordered_json dry_parameters() {
-  return {{"friction", {{"free", {0.2, 0.8}}}},
-          {"rolling_friction", {{"free", {0.02, 0.5}}}},
-          {"table_friction", {{"value", 0.5}}},
-          {"table_rolling_friction", {{"value", 0.1}}},
-          {"mould_friction", {{"value", 0.4}}}};
-}
-
 /// Laws of non-adhesive grains, with the rolling model of the target.
 ordered_json dry_contact(const TargetLaws& laws) {
   return {{"normal", "hertz"},
@@ -84,7 +75,8 @@ ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest&
 /// only the strength. A flow time identifies the viscosity of laws that have one.
 ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements, double radius_mm,
                             HeapWidth width) {
-  if (is_dry(measurements)) return dry_parameters();
+  if (is_dry(measurements))
+    return ordered_json::parse(*template_text_of_mould("study", "lifted-cylinder"), nullptr, true, true)["parameters"];
   const auto is_there = [&](std::string_view part) {
     for (const auto& [key, reading] : measurements.items())
       if (key.find(part) != std::string::npos) return true;
