@@ -38,12 +38,6 @@ std::vector<CardReading> card_readings(const Study& study, std::size_t index, co
   return out;
 }
 
-Readings means_of(const std::vector<CardReading>& readings) {
-  Readings means;
-  for (const auto& reading : readings) means.set(reading.name, reading.simulated);
-  return means;
-}
-
 /// Compares a prediction with the measurement: each reading with a weight, within the noise of both.
 void judge(CardTest& test) {
   std::vector<CardReading*> judged;
@@ -85,7 +79,8 @@ Material material_of(const Study& study, const std::vector<double>& values, cons
   const Specimen& specimen = specimen_of(first.test);
   Material material{specimen.bulk_density_kg_m3, {}, specimen.grains, specimen.contact, study.parameters};
   for (std::size_t i = 0; i < values.size(); ++i) material.parameters[i].value = values[i];
-  const Readings means = means_of(first.readings);
+  Readings means;
+  for (const auto& reading : first.readings) means.set(reading.name, reading.simulated);
   material.grain_density_kg_m3 =
       std::visit([&](const auto& test) { return grain_density_of(test, means); }, first.test);
   return material;

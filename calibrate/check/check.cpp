@@ -13,13 +13,8 @@
 #include "calibrate/store/program.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/verify/force_curve.h"
-#include "core/apparatus/impact/impact.h"
 
 namespace pastefit {
-
-Outcome simulate_impact(const Impact& test) {
-  return simulate(test);
-}
 
 namespace {
 

@@ -7,16 +7,13 @@
 
 #include "calibrate/card/card.h"
 #include "calibrate/laboratory/engine.h"
+#include "core/apparatus/impact/impact.h"
 
 namespace pastefit {
 
-struct Impact;
-
-Outcome simulate_impact(const Impact& test);
-
 /// Engine of a check, with impacts and its identity.
 struct CheckEngine : Engine {
-  std::function<Outcome(const Impact&)> meet = simulate_impact;
+  std::function<Outcome(const Impact&)> meet = [](const Impact& test) { return simulate(test); };
   std::string program, machine;  ///< as in `Baseline`
   /// This program on this machine.
   static CheckEngine ours();

@@ -86,15 +86,11 @@ Export eepa_notes(const ExportScene& scene) {
        "Not run in EDEM. PFC's eepa and LIGGGHTS's edinburgh without fixKc have the same pull-off."}};
 }
 
-/// Surface energy of JKR with this attraction of two mean grains at touch, 8/3 pi gamma R*, R* = R/2.
-double jkr_energy_of_touch(double force, double radius) {
-  return 3 * force / (4 * std::numbers::pi * radius);
-}
-
 std::string bridge_instructions(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
   const double touch = attraction_n(contact, scene.mean_pair(), 0);
-  const double energy = jkr_energy_of_touch(touch, scene.radius_m());
+  // Surface energy of JKR with this attraction of two mean grains at touch, 8/3 pi gamma R*, R* = R/2.
+  const double energy = 3 * touch / (4 * std::numbers::pi * scene.radius_m());
   std::string attraction;
   if (touch > 0)
     attraction = filled_in("exports/texts/edem_attraction.txt",

@@ -106,11 +106,6 @@ double tangent_share(const ContactModel& contact) {
 /// sliding grains: heaps were 102 mm high instead of 170 mm, and 164 mm with a ninth.
 constexpr double kSpringOverlapShare = 1.0 / 9;
 
-/// S_n of the card over 2 E' sqrt(R* d) of the deck.
-double spring_share(const ContactModel& contact, double overlap_ratio) {
-  return tangent_share(contact) / std::sqrt(overlap_ratio * (is_linear(contact) ? kSpringOverlapShare : 1));
-}
-
 /// Values for the grains and each wall from the pair constants.
 std::string of_pairs(const ExportScene& scene, const auto& of_pair) {
   std::vector<double> values{of_pair(grain_pair(scene.contact(), scene.radius_m()))};
@@ -164,7 +159,9 @@ std::string edinburgh_memory(const ExportScene& scene, bool elastic) {
 
 std::string edinburgh_properties(const ExportScene& scene, const Edinburgh& edinburgh) {
   const ContactModel& contact = scene.contact();
-  const double spring = spring_share(contact, edinburgh.overlap_ratio);
+  // S_n of the card over 2 E' sqrt(R* d) of the deck.
+  const double overlap_ratio = edinburgh.overlap_ratio * (is_linear(contact) ? kSpringOverlapShare : 1);
+  const double spring = tangent_share(contact) / std::sqrt(overlap_ratio);
   std::string out;
   int number = 7;
   const auto property = [&](const std::string& name, const std::string& value) {

@@ -39,10 +39,6 @@ std::string full(double value) {
   return format("%.17g", value);
 }
 
-std::string short_of(double value) {
-  return format("%.6g", value);
-}
-
 /// Walls of the test. A slump test also has a ground, for grains that leave the table.
 std::vector<ExportWall> walls_in_deck(const ExportScene& scene) {
   auto walls = walls_of(scene.test);
@@ -104,7 +100,7 @@ std::string drag(const ExportScene& scene) {
 
 /// Step 2. The plate is turned up with pastefit's motion, then falls under its weight and that of the heap.
 std::string drop_of(const DropPlate& drop) {
-  return filled_in("exports/texts/lammps_drop.in", {{"duration", short_of(drop.lift_duration_s)},
+  return filled_in("exports/texts/lammps_drop.in", {{"duration", shown(drop.lift_duration_s)},
                                                     {"duration_exact", full(drop.lift_duration_s)},
                                                     {"angle", full(-std::asin(drop.lift_height_m / drop.length_m))},
                                                     {"mass", full(drop.mass_kg)},
@@ -118,7 +114,7 @@ std::string material_file(const ExportScene& scene) {
                                                         {"program", program_identity()},
                                                         {"density", grain_density_in_words(scene)},
                                                         {"radius", format("%.9g", scene.radius_m())},
-                                                        {"time_step", short_of(deck_time_step_s(scene))},
+                                                        {"time_step", shown(deck_time_step_s(scene))},
                                                         {"walls", wall_fixes(scene, "#   ")},
                                                         {"reference_radius", exact(scene.radius_m())},
                                                         {"contact", contact_words(scene.contact())},
@@ -133,8 +129,8 @@ std::string slump_deck(const ExportScene& scene, const std::vector<std::string>&
   const bool falls = test.drop && test.drop->motion == TableMotion::hinged;
   return filled_in("exports/texts/lammps_slump.in",
                    {{"header", header(scene, notes)},
-                    {"skin", short_of(0.15 * scene.sizes.radii_m[0])},
-                    {"time_step", short_of(deck_time_step_s(scene))},
+                    {"skin", shown(0.15 * scene.sizes.radii_m[0])},
+                    {"time_step", shown(deck_time_step_s(scene))},
                     {"half", full(half)},
                     {"middle", full(-0.5 * kGroundDepth)},
                     {"tilt", falls ? "variable     tilt equal 0" : ""},
@@ -146,7 +142,7 @@ std::string slump_deck(const ExportScene& scene, const std::vector<std::string>&
                     {"walls", wall_fixes(scene)},
                     {"drag", drag(scene)},
                     {"velocity", full(test.lift_velocity_m_s)},
-                    {"lift_time", short_of(1.2 * test.mould.height_m / test.lift_velocity_m_s)},
+                    {"lift_time", shown(1.2 * test.mould.height_m / test.lift_velocity_m_s)},
                     {"drop", falls ? drop_of(*test.drop) : ""}});
 }
 
@@ -160,13 +156,13 @@ std::string two_grains_deck(const ExportScene& scene, const std::vector<std::str
                                                       {"number", std::to_string(i + 1)},
                                                       {"way", full((legs[i].to_m - legs[i].from_m) / legs[i].steps)}});
   return filled_in("exports/texts/lammps_two_grains.in", {{"header", header(scene, notes)},
-                                                          {"near", short_of(4 * radius)},
-                                                          {"far", short_of(8 * radius)},
+                                                          {"near", shown(4 * radius)},
+                                                          {"far", shown(8 * radius)},
                                                           {"types", std::to_string(scene.sizes.radii_m.size())},
                                                           {"first", full(legs[0].from_m)},
                                                           {"diameter", full(2 * radius)},
                                                           {"density", full(scene.grain_density_kg_m3)},
-                                                          {"skin", short_of(0.15 * radius)},
+                                                          {"skin", shown(0.15 * radius)},
                                                           {"legs", ways}});
 }
 

@@ -50,16 +50,12 @@ std::string grains_in_words(const Test& test) {
          format("%g mm", mm * specimen_of(test).grains.radius_m) + " mean radius";
 }
 
-/// Tests of a single body need no minimum number of grains.
-bool is_bed(const Test& test) {
-  return why_of_that_size(test).empty();
-}
-
 }  // namespace
 
 std::string note_on_grain_count(const Test& test) {
   const double count = grains_needed(test);
-  if (!is_bed(test) || count >= kFewGrains) return {};
+  const bool is_bed = why_of_that_size(test).empty();  // one body needs no minimum number of grains
+  if (!is_bed || count >= kFewGrains) return {};
   const double radius_mm = mm * specimen_of(test).grains.radius_m * std::cbrt(count / kFewGrains);
   return grains_in_words(test) + format(
                                      " fill the apparatus, fewer than %g: heaps of so few grains vary much, and a "

@@ -18,10 +18,6 @@ Fault too_near() {
   return outside("the pair comes nearer than the roughness");
 }
 
-bool meets_grain(const Impact& scene) {
-  return scene.grains.size() > 1;
-}
-
 /// C_n [N m/(m/s)].
 double squeezing(const Impact& scene) {
   const double radius = pair_of(scene).radius;
@@ -29,13 +25,13 @@ double squeezing(const Impact& scene) {
 }
 
 double least_gap(const Impact& scene) {
-  return kRoughness * pair_of(scene).radius * (meets_grain(scene) ? 2 : 1);
+  return kRoughness * pair_of(scene).radius * (scene.grains.size() > 1 ? 2 : 1);
 }
 
 /// Initial gap of two grains, or of a grain above a plane through the origin.
 double first_gap(const Impact& scene) {
   const ImpactGrain& grain = scene.grains[0];
-  if (!meets_grain(scene)) return grain.centre_m.z - grain.radius_m;
+  if (scene.grains.size() < 2) return grain.centre_m.z - grain.radius_m;
   return norm(scene.grains[1].centre_m - grain.centre_m) - grain.radius_m - scene.grains[1].radius_m;
 }
 
