@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
@@ -14,6 +15,9 @@ struct Measurement {
   double standard_deviation = 0;  ///< of a single reading, in the unit of the key
   int repeats = 1;
 };
+
+/// Meaning of a reading by its key in laboratory files (reading_words.cpp); empty if unknown.
+std::string_view meaning_of_reading(std::string_view key);
 
 /// Result of checking all readings of a test together.
 struct ReadingCheck {

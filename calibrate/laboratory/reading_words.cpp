@@ -1,8 +1,8 @@
-#include "calibrate/laboratory/reading_words.h"
-
 #include <algorithm>
 #include <array>
 #include <utility>
+
+#include "calibrate/laboratory/measurement.h"
 
 namespace pastefit {
 

@@ -15,8 +15,8 @@
 #include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
+#include "calibrate/laboratory/measurement.h"
 #include "calibrate/laboratory/names.h"
-#include "calibrate/laboratory/reading_words.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/schemas.h"
 

@@ -8,7 +8,7 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/laboratory/reading_words.h"
+#include "calibrate/laboratory/measurement.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/schemas.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "calibrate/card/card.h"
-#include "calibrate/laboratory/reading_words.h"
+#include "calibrate/laboratory/measurement.h"
 #include "calibrate/laboratory/test.h"
 #include "tests/calibrate/folder.h"
 
