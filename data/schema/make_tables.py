@@ -104,8 +104,10 @@ class Tables:
 
     def text(self, name):
         lines = [f"# {self.schema['title'][0].upper() + self.schema['title'][1:]}", "", self.schema["description"], "",
-                 f"Made by `make_tables.py` from `{name}.schema.json`. A key is written with the objects that it stands in; `[]` is each "
-                 "part of a list, `NAME` any name. Where an object has several forms, what is said of a key holds in those that have it.", ""]
+                 f"Made by `make_tables.py` from `{name}.schema.json`. Each key is given with its full path, e.g. "
+                 "`apparatus.reading.height`. In a path, `[]` stands for every element of a list, and `NAME` stands for any name. Some "
+                 "objects have several forms. A row then applies only to the forms that contain the key; `(optional)` means that at "
+                 "least one of these forms does not require it.", ""]
         lines += self.table(self.schema)
         for part, schema in sorted(self.schema.get("definitions", {}).items()):
             if self.has_keys(schema):
