@@ -145,6 +145,7 @@ TEST_CASE("a profile that is too short, out of order, beside the table or above 
 TEST_CASE("every measurement has its counterpart among the readings of the simulation") {
   SlumpTest test;
   test.drop.emplace().drops = 2;
+  test.tilt.emplace();
   test.reading.flank.emplace();
   test.reading.flow.emplace();
   test.reading.spread_curve = {{0, 0.2}, {1, 0.3}};
@@ -157,7 +158,7 @@ TEST_CASE("every measurement has its counterpart among the readings of the simul
     CHECK(kind.key.empty() == kind.measure.empty());
     if (!kind.key.empty()) CHECK(std::find(names.begin(), names.end(), kind.measure) != names.end());
     for (const Ceiling& ceiling : kind.ceilings) CHECK((ceiling.name.empty() || find_kind(kinds, ceiling.name)));
-    constexpr std::array stages{"fill.", "step1.", "step2.", "after_drops."};
+    constexpr std::array stages{"fill.", "step1.", "step2.", "after_drops.", "tilt."};
     CHECK(kind.name.starts_with(stages[kind.stage]));
   }
 }
