@@ -33,14 +33,19 @@ struct ChosenLaws {
 /// Width relative to the cone of the same volume and height. Ordinary heaps have 0.7 to 0.95 of it, or are low.
 enum class HeapWidth { ordinary, narrow, wide };
 
+bool is_pat(std::span<const Measurement> measured) {
+  return find_measurement(measured, "tilt.slide_angle_deg") != nullptr;
+}
+
 /// Narrow heaps are narrower than any heap that slides on its table: with 0.43 to 0.5 of the Abrams cone's height and
 /// 0.67 of a cone's width, only grains that adhere to the table reproduce them, not friction alone. High friction
-/// between the grains reproduces wide ones (tests/results/concretes.md).
+/// between the grains reproduces wide ones (tests/results/concretes.md). The pat of an inclined plate keeps its shape.
 HeapWidth width_of(const SlumpTest& test, std::span<const Measurement> measured) {
   constexpr double narrow = 0.7, low = 0.25, wide = 0.95;
   const auto* height = find_measurement(measured, "step1.height_mm");
   const auto* spread = find_measurement(measured, "step1.spread_mm");
-  if (!height || !spread || height->value < 1e3 * low * test.mould.height_m) return HeapWidth::ordinary;
+  if (!height || !spread || height->value < 1e3 * low * test.mould.height_m || is_pat(measured))
+    return HeapWidth::ordinary;
   const double share = spread->value / cone_width_mm(test, height->value);
   return share < narrow ? HeapWidth::narrow : share > wide ? HeapWidth::wide : HeapWidth::ordinary;
 }
@@ -63,7 +68,7 @@ ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest&
       return {named, "A yield stress is known, and of the laws a bridge has a strength in Pa"};
   }
   const auto* height = find_measurement(measured, "step1.height_mm");
-  if (height && height->value > 1e3 * stands * test.mould.height_m)
+  if (height && height->value > 1e3 * stands * test.mould.height_m && !is_pat(measured))
     return {*epa, "More than half of the height is left: heaps of " + std::string(named.law) +
                       " shear off there, heaps of elasto-plastic adhesion stand"};
   if (width_of(test, measured) == HeapWidth::narrow)

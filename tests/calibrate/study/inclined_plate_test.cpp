@@ -33,6 +33,7 @@ TEST_CASE("a sheet with an angle of sliding searches the table's friction, and i
   CHECK(lab["measurements"]["tilt.slide_angle_deg"]["repeats"] == json{25, 26, 24});
   CHECK(study["parameters"]["table_friction"].contains("free"));
   CHECK(study["parameters"]["table_rolling_friction"]["value"] == 0.5);
+  CHECK_FALSE(study["parameters"].contains("table_cohesion_factor"));  // as a heap that stands on its own would have
 }
 
 TEST_CASE("a card's test keeps its tilt, and a test without one says nothing of it") {
