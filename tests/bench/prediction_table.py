@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Bias and scatter of what cards predict of readings that they were not fitted to (tests/results/predictions.md).
+"""Bias and scatter of what cards predict of readings that they were not fitted to.
 
 usage: prediction_table.py [--check PAGE.md]
 
