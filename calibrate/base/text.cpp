@@ -175,7 +175,7 @@ std::optional<std::string> nearest(std::string_view word, const Names& candidate
   return *best;
 }
 
-std::string did_you_mean(std::string_view word, const Names& known, std::string otherwise) {
+std::string did_you_mean(std::string_view word, const Names& known, const std::string& otherwise) {
   const std::optional<std::string> near = nearest(word, known);
   return near ? "did you mean " + in_quotes(*near) + "?" : otherwise;
 }

@@ -93,7 +93,7 @@ Names names_of(const Rows& rows, Name name = {}) {
 std::optional<std::string> nearest(std::string_view word, const Names& candidates);
 
 /// Remedy for an unknown name: the nearest one that is known, or other advice.
-std::string did_you_mean(std::string_view word, const Names& known, std::string otherwise);
+std::string did_you_mean(std::string_view word, const Names& known, const std::string& otherwise);
 
 /// User text in quotes, truncated if long, with control characters escaped.
 std::string in_quotes(std::string_view text);

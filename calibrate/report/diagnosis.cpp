@@ -233,14 +233,11 @@ Diagnosis time_step(const Card& card, std::span<const StoredEvaluation> evaluati
   Diagnosis out{.name = "time step",
                 .may_be_ignored = "if only a few simulations, far from the card's parameters, failed",
                 .page = "when-it-does-not-meet.md#simulations-that-fail"};
-  int failed = 0;
   for (const FailureReason reason : {FailureReason::energy_created, FailureReason::energy_lost})
     if (const auto found = card.search.failures.find(std::string(name_of(reason)));
-        found != card.search.failures.end() && found->second > 0) {
-      failed += found->second;
+        found != card.search.failures.end() && found->second > 0)
       out.notes.push_back(format("%d of %d simulations failed with ", found->second, card.search.simulations) +
                           found->first);
-    }
   double largest = 0;
   int whole = 0;
   for (const StoredEvaluation& one : evaluations)
@@ -248,9 +245,10 @@ Diagnosis time_step(const Card& card, std::span<const StoredEvaluation> evaluati
       largest = std::max(largest, std::abs(*one.run.energy_error));
       ++whole;
     }
-  out.numbers = "no simulation created energy";
+  if (out.notes.empty()) out.numbers = "no simulation created energy";
   if (whole > 0)
-    out.numbers += format("; at most %.2g %% of the energy unexplained, in %d complete runs", 100 * largest, whole);
+    out.numbers += (out.numbers.empty() ? "" : "; ") +
+                   format("at most %.2g %% of the energy unexplained, in %d complete runs", 100 * largest, whole);
   return out;
 }
 
