@@ -57,10 +57,10 @@ inline void replace_inside(std::string& text, std::string_view beginning, const 
   exchange_lines(text, first, last, outside + "  ", instead);
 }
 
-/// Placeholder of the source in starting files.
+/// Source in starting files, for the user to replace.
 inline constexpr std::string_view kSourceToFillIn = "laboratory, person, date";
 
-/// The given source; empty if it is still the placeholder.
+/// The source of a file; empty if nobody has replaced that of the starting file.
 inline std::string stated_source(const std::string& source) {
   return source == kSourceToFillIn ? std::string() : source;
 }

@@ -128,6 +128,13 @@ TEST_CASE("a jolting table that is killed again and again, and goes on, has the 
   check_resumed(test, 28, 2);
 }
 
+TEST_CASE("a tilted table that is killed again and again, and goes on, has the bits of one that was not") {
+  SlumpTest test = slump();
+  test.drop.reset();
+  test.tilt = Tilt{20, 0.005};
+  check_resumed(test, 28, 2);
+}
+
 TEST_CASE("a run with fixed waits that is killed again and again, and goes on, has the bits of one that was not") {
   RunOptions options;
   options.fixed_wait_s = 0.2;

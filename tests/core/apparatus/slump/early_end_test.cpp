@@ -2,6 +2,7 @@
 
 #include "core/apparatus/slump/packing.h"
 #include "core/apparatus/slump/slump_test.h"
+#include "tests/core/apparatus/slump/bridges.h"
 
 using namespace pastefit;
 
@@ -16,16 +17,7 @@ SlumpTest slumping(bool drop) {
   test.reading.height = HeightReading::highest;
   test.contact.friction = 0.2;
   const double r = test.grains.radius_m, c = 2000 * r * r;
-  test.contact.bridge = {BridgeShape::polynomial,
-                         BridgeFormation::film,
-                         c / (0.16 * r * r),
-                         2 * c / (0.4 * r),
-                         c,
-                         -0.4 * r,
-                         0.2 * r,
-                         0,
-                         0,
-                         0};
+  test.contact.bridge = parabolic_bridge(c, 0.4 * r);
   if (drop) test.drop = DropPlate{};
   return test;
 }

@@ -7,6 +7,7 @@
 #include "core/apparatus/slump/packing.h"
 #include "core/observe/outline.h"
 #include "core/world/world.h"
+#include "tests/core/apparatus/slump/bridges.h"
 
 using namespace pastefit;
 
@@ -20,17 +21,7 @@ SlumpTest small_test(double strength_in_weights) {
   const double r = test.grains.radius_m;
   const double weight = test.bulk_density_kg_m3 / 0.6 * 4.19 * r * r * r * 9.81;
   const double c = strength_in_weights * weight;
-  if (c > 0)
-    test.contact.bridge = {BridgeShape::polynomial,
-                           BridgeFormation::film,
-                           c / (0.09 * r * r),
-                           2 * c / (0.3 * r),
-                           c,
-                           -0.3 * r,
-                           0.15 * r,
-                           0,
-                           0,
-                           0};
+  if (c > 0) test.contact.bridge = parabolic_bridge(c, 0.3 * r);
   return test;
 }
 
