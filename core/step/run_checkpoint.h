@@ -27,9 +27,10 @@ class RunCheckpoint {
     }
   };
 
-  /// `due`: true if a state is wanted, asked every `kStepsPerPulse` steps; `keep`: receives it. `state`: the last one
-  /// given to `keep` by the interrupted run; empty for a new run. Errors: throws `BadState` (core/step/state.h) if
-  /// `state` is no state at all; the resumed run throws it if `state` is that of another run.
+  /// `due`: true if a state is wanted, asked every `kStepsPerPulse` steps; `keep`: receives it, and that of a run which
+  /// its pulse stops. `state`: the last one given to `keep` by the interrupted run; empty for a new run. Errors: throws
+  /// `BadState` (core/step/state.h) if `state` is no state at all; the resumed run throws it if `state` is that of
+  /// another run.
   RunCheckpoint(std::function<bool()> due, std::function<void(const std::string& state)> keep,
                 std::string_view state = {});
 

@@ -109,11 +109,12 @@ PhaseLeft Runner::left(const Phase& phase) const {
 
 std::optional<Failure> Runner::tell(const Phase& phase) {
   if (stepper_.has_failed()) return {};  // the next step reports it; such a state cannot be resumed
-  if (options_.checkpoint && world_.step % kStepsPerPulse == 0 && options_.checkpoint->due())
-    options_.checkpoint->keep(state());
-  if (options_.pulse && world_.step % kStepsPerPulse == 0 &&
-      !options_.pulse({phase.name, world_.time, world_.step, &world_, 0, left(phase)}))
-    return stopped_in(phase.name);
+  if (world_.step % kStepsPerPulse == 0) {
+    const bool stop =
+        options_.pulse && !options_.pulse({phase.name, world_.time, world_.step, &world_, 0, left(phase)});
+    if (options_.checkpoint && (stop || options_.checkpoint->due())) options_.checkpoint->keep(state());
+    if (stop) return stopped_in(phase.name);
+  }
   if (!options_.watch || world_.time < next_watch_) return {};
   return look({phase.name, world_.time, world_.step, &world_, 0, left(phase)});
 }

@@ -49,7 +49,10 @@ int sessions(const Test& test, RunOptions options, int pulses, int early, Outcom
     int seen = 0;
     std::string kept;
     options.checkpoint = std::make_shared<RunCheckpoint>([&] { return seen == pulses - early; },
-                                                         [&](const std::string& now) { kept = now; }, state);
+                                                         [&](const std::string& now) {
+                                                           if (kept.empty()) kept = now;
+                                                         },
+                                                         state);
     options.pulse = [&](const Snapshot&) { return ++seen <= pulses; };
     outcome = simulate(test, options);
     if (!outcome.failure || outcome.failure->reason != FailureReason::stopped) return session;
@@ -93,6 +96,20 @@ void check_resumed(const Test& test, int pulses, int early, const RunOptions& op
 
 TEST_CASE("a pellet crush that is killed again and again, and goes on, has the bits of one that was not") {
   check_resumed(pellet(), 40, 3);
+}
+
+TEST_CASE("a run that its pulse stops leaves its state although none was due, and goes on with the same bits") {
+  const PelletCrush test = pellet();
+  std::string left;
+  RunOptions options;
+  options.checkpoint =
+      std::make_shared<RunCheckpoint>([] { return false; }, [&](const std::string& now) { left = now; });
+  options.pulse = [seen = 0](const Snapshot&) mutable { return ++seen < 40; };
+  REQUIRE(simulate(test, options).failure);
+  REQUIRE_FALSE(left.empty());
+  RunOptions resumed;
+  resumed.checkpoint = std::make_shared<RunCheckpoint>([] { return false; }, [](const std::string&) {}, left);
+  check_same(simulate(test, {}), simulate(test, resumed));
 }
 
 TEST_CASE("a shear cell that is killed again and again, and goes on, has the bits of one that was not") {
