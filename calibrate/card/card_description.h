@@ -41,34 +41,35 @@ inline Range simulated_range(std::string_view name, const Test* test) {
 /// `packings`: of the confirmation.
 template <class Fields, class Of>
 void describe_reading(Fields& fields, Of& one, const Range& range, std::size_t packings) {
-  fields.number({"simulated", "mean over the packings"}, one.simulated, range, required);
-  fields.number({"simulated_standard_deviation", "from packing to packing"}, one.simulated_standard_deviation,
-                not_negative, required);
+  fields.number({"simulated", "mean of the simulated reading over the packings"}, one.simulated, range, required);
+  fields.number({"simulated_standard_deviation", "standard deviation between packings"},
+                one.simulated_standard_deviation, not_negative, required);
   if constexpr (Fields::reads) one.packings = 0;  // default: all of the confirmation's
   fields.integer({"packings",
-                  "that these two are of, where a laboratory would reject some of the confirmation's, e.g. heaps that "
-                  "sheared off"},
+                  "number of packings in this mean and standard deviation; present only if a laboratory would reject "
+                  "some packings of the confirmation, e.g. because their heaps sheared off"},
                  one.packings, 1, many, WrittenIf{static_cast<std::size_t>(one.packings) != packings});
-  fields.derived_number({"standard_error", "of the mean, with two packings or more; derived"}, standard_error(one),
-                        not_negative);
-  fields.nullable_number({"measured", "the laboratory's; null: not measured"}, one.measured, range, required);
+  fields.derived_number({"standard_error", "standard error of the mean of two or more packings; derived"},
+                        standard_error(one), not_negative);
+  fields.nullable_number({"measured", "measured reading; null: not measured"}, one.measured, range, required);
   const With measurement{one.measured.has_value()};
-  fields.number({"standard_deviation", "of one measurement"}, one.standard_deviation, not_negative, measurement);
-  fields.integer({"repeats", "measurements"}, one.repeats, 0, many, measurement);
-  fields.number({"weight", "in the fit; 0: not fitted"}, one.weight, not_negative, measurement);
-  fields.number({"tolerance", "how far off it may be; of a reading that was measured"}, one.tolerance, positive,
+  fields.number({"standard_deviation", "standard deviation of one measurement"}, one.standard_deviation, not_negative,
                 measurement);
+  fields.integer({"repeats", "number of measurements"}, one.repeats, 0, many, measurement);
+  fields.number({"weight", "weight of the reading in the fit; 0: not fitted"}, one.weight, not_negative, measurement);
+  fields.number({"tolerance", "largest accepted difference from the measured reading, if there is one"}, one.tolerance,
+                positive, measurement);
   std::optional<double> difference;
   if (one.measured) difference = one.simulated - *one.measured;
-  fields.derived_number({"difference", "simulated less measured; derived"}, difference, any);
-  fields.optional_number({"band", "of a hold-out: difference that the noise of both explains"}, one.band, not_negative);
+  fields.derived_number({"difference", "simulated minus measured reading; derived"}, difference, any);
+  fields.optional_number({"band", "in hold-out tests: largest difference that noise explains"}, one.band, not_negative);
 }
 
 void describe_provenance(auto& fields, auto& lab) {
-  fields.text({"source", "who measured"}, lab.source, required);
-  fields.text({"licence", "under which it may be passed on"}, lab.licence, required);
-  fields.text({"notes", "what else is known"}, lab.notes, required);
-  fields.flag({"twin", "simulated with known parameters"}, lab.twin, required);
+  fields.text({"source", "who measured, or the publication"}, lab.source, required);
+  fields.text({"licence", "licence of the data"}, lab.licence, required);
+  fields.text({"notes", "other information"}, lab.notes, required);
+  fields.flag({"twin", "true: the readings are simulated with known parameters, not measured"}, lab.twin, required);
 }
 
 /// Runs of a baseline in the form of the file: one column for each reading.
@@ -88,9 +89,9 @@ void describe_baseline(Fields& fields, Of& baseline, const Test* test) {
   BaselineColumns columns = baseline_columns(baseline);
   fields.text({"program", "version and fingerprint of the engine"}, baseline.program, required);
   fields.text({"machine", "processor and C library"}, baseline.machine, required);
-  fields.integers({"packings", "seeds"}, columns.packings, required);
+  fields.integers({"packings", "seeds of the packings"}, columns.packings, required);
   const std::size_t count = columns.packings.size();
-  fields.entries({"readings", "one number for each packing, by reading"}, columns.readings,
+  fields.entries({"readings", "by the name of the reading: one value for each packing"}, columns.readings,
                  &BaselineColumns::Column::name, required, [&](auto& readings, const Key& name, auto& column) {
                    readings.numbers(name, column.values, simulated_range(name, test), required, count, count);
                  });
@@ -99,15 +100,15 @@ void describe_baseline(Fields& fields, Of& baseline, const Test* test) {
 
 void describe_yield_stresses(auto& fields, const Key& key, auto&& stresses) {
   named_objects(fields, key, stresses, &ComparedYieldStress::reading, Need::optional, [](auto& stress, auto& one) {
-    stress.text({"formula", "its authors and year"}, one.formula, required);
-    stress.number({"simulated", "by the simulated reading"}, one.simulated_pa, not_negative, required);
-    stress.optional_number({"measured", "by the laboratory's reading; absent if it was not taken"}, one.reading_pa,
+    stress.text({"formula", "authors and year of the formula"}, one.formula, required);
+    stress.number({"simulated", "yield stress from the simulated reading"}, one.simulated_pa, not_negative, required);
+    stress.optional_number({"measured", "yield stress from the measured reading, if there is one"}, one.reading_pa,
                            not_negative);
-    stress.optional_number({"ratio", "simulated over measured_yield_stress_pa; absent without it"}, one.ratio,
-                           not_negative);
+    stress.optional_number({"ratio", "simulated yield stress divided by measured_yield_stress_pa, if there is one"},
+                           one.ratio, not_negative);
     stress.optional_number({"deviations",
-                            "by which simulated is above it, in its standard deviations; absent without "
-                            "it"},
+                            "simulated yield stress minus measured_yield_stress_pa, if there is one, in standard "
+                            "deviations of one measurement"},
                            one.deviations, any);
   });
 }
@@ -120,51 +121,51 @@ bool describe_test(ObjectSchema& fields, const Key& key, const CardTest& test, c
 /// `material`: of the card, as `describe_test` takes it. `packings`: of the confirmation.
 template <class Fields, class Of, class Whole>
 void describe_card_test(Fields& fields, Of& test, const Whole& material, std::size_t packings) {
-  fields.text({"name", "unique; absent if there is one test only"}, test.name, Default{std::string()});
-  fields.flag({"hold_out", "predicted, not fitted"}, test.hold_out, Default{false});
-  fields.text({"lab_file", "as the study names it"}, test.lab_file, required);
-  fields.text({"lab_hash", "of its content (FNV-1a)"}, test.lab_hash, required);
-  fields.object({"lab", "what the laboratory file says of itself"}, required,
+  fields.text({"name", "unique name of the test; absent if it is the only one"}, test.name, Default{std::string()});
+  fields.flag({"hold_out", "true: the test was predicted, not fitted"}, test.hold_out, Default{false});
+  fields.text({"lab_file", "laboratory file, as named in the study"}, test.lab_file, required);
+  fields.text({"lab_hash", "hash of the content of the laboratory file (FNV-1a)"}, test.lab_hash, required);
+  fields.object({"lab", "provenance of the measurements, from the laboratory file"}, required,
                 [&](auto& lab) { describe_provenance(lab, test.lab); });
   fields.optional_object(
       {"measured_yield_stress_pa",
-       "what the laboratory measured with a vane or another rheometer; compared, not fitted; absent if it did not"},
+       "yield stress measured with a vane or another rheometer; compared, not fitted; absent if it was not measured"},
       test.yield_stress, [](auto& measured, auto& one) {
         if constexpr (Fields::reads) one.reading = "yield_stress_pa";
         measured.number({"value", "mean of the repeats"}, one.value, positive, required);
-        measured.number({"standard_deviation", "of one measurement"}, one.standard_deviation, positive, required);
-        measured.integer({"repeats", "measurements that the value is a mean of"}, one.repeats, 1, many, required);
+        measured.number({"standard_deviation", "standard deviation of one measurement"}, one.standard_deviation,
+                        positive, required);
+        measured.integer({"repeats", "number of measurements in the mean"}, one.repeats, 1, many, required);
       });
   fields.derived_object(
       {"yield_stress_pa",
-       "of a fluid that would read what was read, by the names of readings; derived, as `pastefit show --json` prints "
-       "it; not stored, not read"},
+       "yield stress of a fluid with the same reading, by the name of the reading; `pastefit show --json` calculates "
+       "and prints it; card files do not contain it, and the program ignores it on reading"},
       [] { return nlohmann::ordered_json(); },
       [](auto& schema, const Key& key) { describe_yield_stresses(schema, key, std::vector<ComparedYieldStress>()); });
   fields.derived_object(
-      {"conditions", "what a fit to this test holds for; derived, not read"}, [&] { return conditions_of(test.test); },
-      [](auto& schema, const Key& key) { schema.any_numbers(key, any); });
-  const bool known = describe_test(
-      fields,
-      {"test",
-       "what was simulated: apparatus, grains and contact laws, in SI; bulk density, grains and contact are the "
-       "material's where they are not said"},
-      test, material);
+      {"conditions", "conditions for which a fit to this test is valid; derived from the test, ignored on reading"},
+      [&] { return conditions_of(test.test); }, [](auto& schema, const Key& key) { schema.any_numbers(key, any); });
+  const bool known = describe_test(fields,
+                                   {"test",
+                                    "the simulated test in SI units: apparatus, grains and contact laws; if bulk "
+                                    "density, grains or contact are absent, they are equal to those of the material"},
+                                   test, material);
   const Test* of_ranges = known ? &test.test : nullptr;
   fields.entries({"readings",
-                  "what was read, simulated and measured, by name, which carries the unit; simulated: mean over the "
-                  "confirmation packings that a laboratory would accept"},
+                  "simulated and measured readings, by their names, which end with the unit; a simulated reading is "
+                  "the mean over the confirmation packings whose heap a laboratory would accept"},
                  test.readings, &CardReading::name, required, [&](auto& readings, const Key& name, auto& one) {
                    readings.object(name, required, [&](auto& reading) {
                      describe_reading(reading, one, simulated_range(name, of_ranges), packings);
                    });
                  });
   bool within_noise = test.within_noise.value_or(false);
-  fields.flag({"within_noise", "of a hold-out: every reading that counts lies within its band"}, within_noise,
+  fields.flag({"within_noise", "in hold-out tests: true if every weighted reading is within its band"}, within_noise,
               WrittenIf{test.within_noise.has_value()});
   if constexpr (Fields::reads)
     if (fields.has("within_noise")) test.within_noise = within_noise;
-  fields.object({"baseline", "what one engine read off the test in each packing; checks compare with it"},
+  fields.object({"baseline", "readings of one engine in each packing, with which `pastefit check` compares"},
                 WrittenIf{!test.baseline.runs.empty()},
                 [&](auto& baseline) { describe_baseline(baseline, test.baseline, of_ranges); });
 }
@@ -183,13 +184,13 @@ void describe_parameters(Fields& fields, Of& parameters, const Card& card) {
   const auto describe_free = [&](auto& free) {
     for (auto& one : parameters) {
       const auto bounds = [&](auto& own) {
-        own.number({"lower", "bound"}, one.lower, any, required);
-        own.number({"upper", "bound"}, one.upper, any, required);
-        own.choice({"scale", "on which it was searched"}, one.scale, scales, required);
-        own.optional_object({"prior", "what was known beforehand"}, one.prior, [](auto& prior, auto& known) {
-          prior.number({"value", "mean"}, known.value, any, required);
-          prior.number({"standard_deviation", "how well it was known"}, known.standard_deviation, not_negative,
-                       required);
+        own.number({"lower", "lower bound"}, one.lower, any, required);
+        own.number({"upper", "upper bound"}, one.upper, any, required);
+        own.choice({"scale", "scale on which the parameter was searched"}, one.scale, scales, required);
+        own.optional_object({"prior", "prior distribution, from the study"}, one.prior, [](auto& prior, auto& known) {
+          prior.number({"value", "mean of the prior"}, known.value, any, required);
+          prior.number({"standard_deviation", "standard deviation of the prior"}, known.standard_deviation,
+                       not_negative, required);
         });
       };
       if constexpr (Fields::reads)
@@ -207,17 +208,21 @@ void describe_parameters(Fields& fields, Of& parameters, const Card& card) {
 
 void describe_confirmation(auto& fields, auto& confirmation) {
   fields.integers({"packings", "seeds of the packings"}, confirmation.packings, required);
-  fields.flag({"fresh", "the search had not seen these packings"}, confirmation.fresh, required);
+  fields.flag({"fresh", "true: the search did not use these packings"}, confirmation.fresh, required);
   fields.number({"error",
-                 "largest difference of a fitted reading from the laboratory, over its tolerance; at most 1 "
-                 "is allowed"},
+                 "largest difference between simulated and measured value of a fitted reading, divided by its "
+                 "tolerance; at most 1 is accepted"},
                 confirmation.error, not_negative, required);
-  fields.flag({"meets_laboratory", "every fitted reading is within its tolerance, surely enough"},
+  fields.flag({"meets_laboratory",
+               "true: the material is confirmed; with noise included, every fitted reading is within its tolerance, "
+               "and few enough heaps shear off"},
               confirmation.meets_laboratory, required);
-  fields.flag({"refuted", "true: a reading is not, or too many heaps shear off, surely enough"}, confirmation.refuted,
-              Default{false});
+  fields.flag({"refuted",
+               "true: the material is rejected; a fitted reading is outside its tolerance by more than the noise "
+               "explains, or too many heaps shear off"},
+              confirmation.refuted, Default{false});
   fields.optional_number(
-      {"rejected_share", "share of heaps that a laboratory may reject for the material to meet it; 1: not judged"},
+      {"rejected_share", "largest accepted share of heaps that a laboratory would reject; 1: the share is not judged"},
       confirmation.rejected_share, share);
 }
 
@@ -225,45 +230,46 @@ std::vector<std::string> failure_names();
 
 template <class Fields, class Of>
 void describe_search(Fields& fields, Of& search) {
-  fields.text({"strategy", "name of the search"}, search.strategy, required);
-  fields.text({"status", "how it ended: confirmed, unconfirmed, out_of_reach, stopped, failed"}, search.status,
+  fields.text({"strategy", "name of the search strategy"}, search.strategy, required);
+  fields.text({"status", "how the search ended: confirmed, unconfirmed, out_of_reach, stopped, failed"}, search.status,
               required);
-  fields.text({"reason", "the same for people"}, search.reason, required);
-  fields.integer({"seed", "of the search"}, search.seed, required);
+  fields.text({"reason", "explanation of the status in words"}, search.reason, required);
+  fields.integer({"seed", "seed of the search"}, search.seed, required);
   fields.integers({"packings", "seeds of the packings on which candidates were compared"}, search.packings, required);
-  fields.integer({"budget", "simulations allowed"}, search.budget, 0, very_many, required);
-  fields.integer({"simulations", "simulations finished, those known from an earlier run included"}, search.simulations,
-                 0, very_many, required);
-  fields.object({"failures", "simulations without an answer, by reason"}, required, [&](auto& failures) {
+  fields.integer({"budget", "largest number of simulations, from the study"}, search.budget, 0, very_many, required);
+  fields.integer({"simulations", "number of finished simulations, including those known from an earlier run"},
+                 search.simulations, 0, very_many, required);
+  fields.object({"failures", "numbers of failed simulations, by reason"}, required, [&](auto& failures) {
     for (const std::string& name : failure_names()) {
       const auto known = search.failures.find(name);
       const bool counted = known != search.failures.end();
       int count = counted ? known->second : 0;
-      failures.integer({name, "simulations that ended so"}, count, 0, very_many, WrittenIf{counted});
+      failures.integer({name, "number of simulations that failed for this reason"}, count, 0, very_many,
+                       WrittenIf{counted});
       if constexpr (Fields::reads)
         if (failures.has(name)) search.failures[name] = count;
     }
   });
-  fields.integer({"coarse_simulations", "of coarse grains, beside the budget"}, search.coarse_simulations, 0, very_many,
-                 Default{0});
+  fields.integer({"coarse_simulations", "number of simulations with coarse grains, which the budget does not include"},
+                 search.coarse_simulations, 0, very_many, Default{0});
 }
 
 void describe_conditions(auto& fields, auto& conditions) {
   named_objects(
       fields,
       {"unstated_conditions",
-       "conditions of the tests that neither the laboratory nor the study states, and what they do to the readings of "
-       "this material; contained in the intervals"},
+       "test conditions that neither laboratory file nor study states, with their effect on the readings of this "
+       "material; the intervals include this effect"},
       conditions, &ConditionEffect::place, WrittenIf{!conditions.empty()}, [](auto& effect, auto& one) {
-        effect.number({"assumed", "value, in the unit of its key"}, one.assumed, any, required);
-        effect.number({"lower", "end of the range in which it may lie"}, one.lower, any, required);
-        effect.number({"upper", "end of the range in which it may lie"}, one.upper, any, required);
-        effect.integer({"packings", "on which both ends were simulated and no heap was rejected"}, one.packings, 0,
-                       1000, required);
-        named_objects(effect, {"readings", "means over these packings"}, one.readings, &ConditionEffect::Reading::name,
-                      required, [](auto& ends, auto& reading) {
-                        ends.number({"at_lower", "at the lower end"}, reading.at_lower, any, required);
-                        ends.number({"at_upper", "at the upper end"}, reading.at_upper, any, required);
+        effect.number({"assumed", "assumed value, in the unit of its key"}, one.assumed, any, required);
+        effect.number({"lower", "lower end of the range in which the condition may lie"}, one.lower, any, required);
+        effect.number({"upper", "upper end of the range in which the condition may lie"}, one.upper, any, required);
+        effect.integer({"packings", "number of packings in which both ends were simulated and no heap was rejected"},
+                       one.packings, 0, 1000, required);
+        named_objects(effect, {"readings", "means of the readings over these packings"}, one.readings,
+                      &ConditionEffect::Reading::name, required, [](auto& ends, auto& reading) {
+                        ends.number({"at_lower", "mean at the lower end"}, reading.at_lower, any, required);
+                        ends.number({"at_upper", "mean at the upper end"}, reading.at_upper, any, required);
                       });
       });
 }
@@ -277,20 +283,24 @@ std::vector<CardInference::Correlation> pairs_of(const std::vector<Row>& rows);
 
 template <class Fields, class Of>
 void describe_inference(Fields& fields, Of& inference) {
-  fields.object({"intervals", "range of each fitted parameter that agrees with the readings"},
-                WrittenIf{!inference.intervals.empty()}, [&](auto& intervals) {
-                  intervals.text({"method", "in words"}, inference.method, required);
-                  intervals.number({"level", "probability with which an interval holds the parameter"}, inference.level,
-                                   share, required);
-                  named_objects(intervals, {"parameters", "those with an end that the readings set"},
-                                inference.intervals, &CardInference::Interval::parameter, required,
-                                [](auto& interval, auto& one) {
-                                  interval.number({"lower", "end"}, one.lower, any, required);
-                                  interval.number({"upper", "end"}, one.upper, any, required);
-                                });
-                });
+  fields.object(
+      {"intervals", "ranges of the fitted parameters that agree with the readings"},
+      WrittenIf{!inference.intervals.empty()}, [&](auto& intervals) {
+        intervals.text({"method", "method by which the intervals were calculated, in words"}, inference.method,
+                       required);
+        intervals.number({"level", "probability that an interval contains the parameter"}, inference.level, share,
+                         required);
+        named_objects(
+            intervals,
+            {"parameters",
+             "intervals by the name of the parameter; only those with at least one end that the readings set"},
+            inference.intervals, &CardInference::Interval::parameter, required, [](auto& interval, auto& one) {
+              interval.number({"lower", "lower end"}, one.lower, any, required);
+              interval.number({"upper", "upper end"}, one.upper, any, required);
+            });
+      });
   std::vector<Row> rows = rows_of(inference.correlations);
-  fields.entries({"correlation", "of pairs of parameters, within their joint interval"}, rows, &Row::first,
+  fields.entries({"correlation", "correlations of pairs of parameters, within their joint interval"}, rows, &Row::first,
                  WrittenIf{!rows.empty()}, [](auto& correlation, const Key& first, auto& row) {
                    correlation.entries(first, row.pairs, &CardInference::Correlation::second, required,
                                        [](auto& pairs, const Key& second, auto& pair) {
@@ -305,105 +315,117 @@ void describe_inference(Fields& fields, Of& inference) {
 }
 
 void describe_rebaseline(auto& fields, auto& change) {
-  fields.text({"why", "in words"}, change.why, required);
-  fields.text({"program_before", "version and fingerprint"}, change.program_before, required);
-  fields.text({"program_after", "version and fingerprint"}, change.program_after, required);
-  named_objects(fields, {"moved", "means of readings that changed"}, change.moved, &Rebaseline::Moved::reading,
-                required, [](auto& moved, auto& one) {
-                  moved.number({"before", "mean"}, one.before, any, required);
-                  moved.number({"after", "mean"}, one.after, any, required);
+  fields.text({"why", "reason for the change, in words"}, change.why, required);
+  fields.text({"program_before", "version and fingerprint of the engine before the change"}, change.program_before,
+              required);
+  fields.text({"program_after", "version and fingerprint of the engine after the change"}, change.program_after,
+              required);
+  named_objects(fields, {"moved", "readings whose mean changed"}, change.moved, &Rebaseline::Moved::reading, required,
+                [](auto& moved, auto& one) {
+                  moved.number({"before", "mean before the change"}, one.before, any, required);
+                  moved.number({"after", "mean after the change"}, one.after, any, required);
                 });
 }
 
 void describe_rescaling(auto& fields, auto& step) {
-  fields.number({"from_radius_m", "mean radius before"}, step.from_radius_m, grain_radius, required);
-  named_objects(fields, {"bias", "what the step did to the readings"}, step.bias, &Rescaling::Bias::reading, required,
-                [](auto& bias, auto& one) {
-                  bias.number({"before", "mean"}, one.before, any, required);
-                  bias.number({"after", "mean"}, one.after, any, required);
-                  bias.number({"standard_error", "of their difference"}, one.standard_error, not_negative, required);
+  fields.number({"from_radius_m", "mean grain radius before the change"}, step.from_radius_m, grain_radius, required);
+  named_objects(fields, {"bias", "effect of the change on the readings"}, step.bias, &Rescaling::Bias::reading,
+                required, [](auto& bias, auto& one) {
+                  bias.number({"before", "mean before the change"}, one.before, any, required);
+                  bias.number({"after", "mean after the change"}, one.after, any, required);
+                  bias.number({"standard_error", "standard error of the difference between both means"},
+                              one.standard_error, not_negative, required);
                 });
 }
 
 void describe_further_confirmation(auto& fields, auto& one) {
-  fields.text({"engine", "that simulated it"}, one.engine, required);
-  fields.text({"program", "as it calls itself, with its version"}, one.program, required);
-  fields.text({"test", "name of the test; without it the card's only one"}, one.test, Default{std::string()});
+  fields.text({"engine", "engine that simulated the test"}, one.engine, required);
+  fields.text({"program", "name of the engine as it prints it, with its version"}, one.program, required);
+  fields.text({"test", "name of the test; absent if the card has only one test"}, one.test, Default{std::string()});
   fields.number({"radius_m", "mean radius of the grains"}, one.radius_m, grain_radius, required);
-  fields.integers({"packings", "seeds"}, one.packings, required);
-  fields.integer({"accepted", "packings whose heap a laboratory would accept; all, if it would accept none"},
-                 one.accepted, 1, many, required);
-  fields.integer({"ranks", "processes that shared a simulation"}, one.ranks, 1, many, required);
+  fields.integers({"packings", "seeds of the packings"}, one.packings, required);
+  fields.integer(
+      {"accepted",
+       "number of packings whose heap a laboratory would accept; if it would accept none, the number of all packings"},
+      one.accepted, 1, many, required);
+  fields.integer({"ranks", "number of processes that shared a simulation"}, one.ranks, 1, many, required);
   fields.number({"wall_s", "wall time of the time steps of all packings"}, one.wall_s, not_negative, required);
   fields.number({"core_s", "processor time of the time steps of all packings, all ranks together"}, one.core_s,
                 not_negative, required);
-  fields.optional_number({"error", "largest difference of a fitted reading over its tolerance"}, one.error,
-                         not_negative);
-  fields.flag({"meets_laboratory", "there, and the noise of the packings leaves no doubt"}, one.meets_laboratory,
-              required);
-  named_objects(fields, {"readings", "those that the card has, too"}, one.readings, &FurtherConfirmation::Reading::name,
-                required, [](auto& reading, auto& own) {
-                  reading.number({"card", "mean of the card's own confirmation"}, own.card, any, required);
-                  reading.number({"simulated", "mean there"}, own.simulated, any, required);
-                  reading.number({"simulated_standard_deviation", "there, from packing to packing"},
-                                 own.simulated_standard_deviation, not_negative, required);
-                  reading.derived_number({"bias", "simulated less card; derived"}, own.bias(), any);
-                  reading.optional_number({"standard_error", "of the bias"}, own.standard_error, not_negative);
-                });
+  fields.optional_number(
+      {"error",
+       "largest difference between simulated and measured value of a fitted reading, divided by its tolerance"},
+      one.error, not_negative);
+  fields.flag({"meets_laboratory",
+               "true: the material is also confirmed with this engine, with the noise of the packings included"},
+              one.meets_laboratory, required);
+  named_objects(
+      fields, {"readings", "readings that the card also contains"}, one.readings, &FurtherConfirmation::Reading::name,
+      required, [](auto& reading, auto& own) {
+        reading.number({"card", "mean in the card's own confirmation"}, own.card, any, required);
+        reading.number({"simulated", "mean in this engine"}, own.simulated, any, required);
+        reading.number({"simulated_standard_deviation", "standard deviation between packings in this engine"},
+                       own.simulated_standard_deviation, not_negative, required);
+        reading.derived_number({"bias", "mean in this engine minus mean in the card; derived"}, own.bias(), any);
+        reading.optional_number({"standard_error", "standard error of the bias"}, own.standard_error, not_negative);
+      });
 }
 
 void describe_interpolation(auto& fields, auto& one) {
   static constexpr std::array<Named<std::string_view>, 2> models{
       {{"linear", "linear"}, {"gaussian_process", "gaussian_process"}}};
-  fields.text({"variable", "of the laboratory files, with its place there"}, one.variable, required);
-  fields.number({"value", "at which, in the unit of its name"}, one.value, any, required);
-  fields.choice({"model", "of each parameter over the variable"}, one.model, models, required);
-  fields.texts({"studies", "names of those whose materials it lies between"}, one.studies, required);
+  fields.text({"variable", "variable of the interpolation, as a path in the laboratory files"}, one.variable, required);
+  fields.number({"value", "value of the variable for this material, in the unit of its name"}, one.value, any,
+                required);
+  fields.choice({"model", "model of each parameter as a function of the variable"}, one.model, models, required);
+  fields.texts({"studies", "names of the studies between whose materials this material lies"}, one.studies, required);
 }
 
 template <class Fields, class Of>
 void describe_card(Fields& fields, Of& card) {
   fields.text({"title", "title, one line"}, card.title, required);
-  fields.object({"material", "its contact laws, in SI for grains of one size, and scale-free"}, required,
-                [&](auto& material) {
-                  describe_material(material, card.material);
-                  material.nullable_number({"grain_density_kg_m3",
-                                            "of the grains, such that they fill a vessel with the bulk density; null: "
-                                            "not known"},
-                                           card.material.grain_density_kg_m3, not_negative, required);
-                  describe_parameters(material, card.material.parameters, card);
-                });
-  fields.list({"tests", "what the material was fitted to and what it predicts, on the same packings"}, card.tests,
-              Need::required, [&](auto& entry, auto& test) {
+  fields.object(
+      {"material", "the material: its contact laws in SI units, for the given grain sizes, and in scale-free form"},
+      required, [&](auto& material) {
+        describe_material(material, card.material);
+        material.nullable_number(
+            {"grain_density_kg_m3",
+             "density of a grain, such that a filled vessel has the bulk density; null: not known"},
+            card.material.grain_density_kg_m3, not_negative, required);
+        describe_parameters(material, card.material.parameters, card);
+      });
+  fields.list({"tests", "fitted tests and predicted tests of the material, all simulated with the same packings"},
+              card.tests, Need::required, [&](auto& entry, auto& test) {
                 const std::size_t packings = card.confirmation.packings.size();
                 if constexpr (Fields::reads)
                   describe_card_test(entry, test, fields.content("material"), packings);
                 else
                   describe_card_test(entry, test, card.material, packings);
               });
-  fields.object({"confirmation", "how the material was judged"}, required,
+  fields.object({"confirmation", "result of the confirmation of the material"}, required,
                 [&](auto& confirmation) { describe_confirmation(confirmation, card.confirmation); });
-  fields.object({"search", "how the material was found"}, required,
+  fields.object({"search", "the search that found the material"}, required,
                 [&](auto& search) { describe_search(search, card.search); });
-  fields.object({"provenance", "from what, by what"}, required, [&](auto& provenance) {
-    provenance.text({"study_file", "as it was named"}, card.provenance.study_file, required);
-    provenance.text({"study_hash", "of its content (FNV-1a)"}, card.provenance.study_hash, required);
+  fields.object({"provenance", "the study and the program that the card comes from"}, required, [&](auto& provenance) {
+    provenance.text({"study_file", "name of the study file, as given to the program"}, card.provenance.study_file,
+                    required);
+    provenance.text({"study_hash", "hash of the content of the study (FNV-1a)"}, card.provenance.study_hash, required);
     provenance.text({"program", "version and fingerprint of the engine"}, card.provenance.program, required);
-    provenance.texts({"settings", "changes of the study file for this calibration, PATH=VALUE; absent: none"},
+    provenance.texts({"settings", "changes of the study for this calibration, each as PATH=VALUE; absent: no changes"},
                      card.provenance.settings, Need::optional);
   });
   describe_inference(fields, card.inference);
-  fields.list({"rebaselined", "changes of the baseline that were meant, oldest first"}, card.rebaselined,
-              Need::optional, [](auto& entry, auto& change) { describe_rebaseline(entry, change); });
-  fields.list({"rescaled", "steps to other grain sizes, oldest first, with what they did to the readings"},
-              card.rescaled, Need::optional, [](auto& entry, auto& step) { describe_rescaling(entry, step); });
+  fields.list({"rebaselined", "intended changes of the baseline, oldest first"}, card.rebaselined, Need::optional,
+              [](auto& entry, auto& change) { describe_rebaseline(entry, change); });
+  fields.list({"rescaled", "changes of the grain size, oldest first, with their effect on the readings"}, card.rescaled,
+              Need::optional, [](auto& entry, auto& step) { describe_rescaling(entry, step); });
   fields.list({"further_confirmations",
-               "a test of the card in another engine, maybe with grains of another size, oldest first"},
+               "simulations of tests of the card in other engines, possibly with other grain sizes, oldest first"},
               card.further_confirmations, Need::optional,
               [](auto& entry, auto& one) { describe_further_confirmation(entry, one); });
   fields.optional_object({"interpolated",
-                          "absent of a material that was fitted; one with it was interpolated between fitted ones, "
-                          "and no reading of it was met"},
+                          "present only if the material was interpolated between fitted materials; such a material was "
+                          "not fitted to readings of its own"},
                          card.interpolated, [](auto& inner, auto& one) { describe_interpolation(inner, one); });
 }
 

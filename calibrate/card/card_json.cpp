@@ -269,11 +269,11 @@ ordered_json card_schema() {
   Card any;
   any.material.parameters = default_parameters();
   card_fields::describe_card(schema, any);
-  return document_schema(
-      "pastefit material card",
-      "A calibrated material: its contact laws in SI and scale-free, its tests with simulated against measured, and "
-      "where it comes from. That the numbers agree with each other is the writer's promise.",
-      std::move(object), std::move(definitions));
+  return document_schema("pastefit material card",
+                         "A calibrated material: its contact laws in SI units and in scale-free form, the simulated "
+                         "and measured readings of its tests, and its provenance. The schema does not check that the "
+                         "numbers agree with each other. The writer of the card must ensure this.",
+                         std::move(object), std::move(definitions));
 }
 
 Result<Card> read_card(const std::filesystem::path& file) {

@@ -23,7 +23,7 @@ inline constexpr std::string_view kind_of(const PelletCrush&) {
 
 void describe_apparatus(auto& apparatus, PelletCrush& test, Need need) {
   read_dimensions(apparatus, test, pellet_dimensions, need);
-  read_tools(apparatus, "the surface of die, punch, platen and floor", test.tools);
+  read_tools(apparatus, "surface of the tools: die, punch, platen and floor; or plates, ribs and sides", test.tools);
 }
 std::vector<FilePlace> places_in_files(const PelletCrush&);
 

@@ -26,9 +26,9 @@ void describe_apparatus(auto& apparatus, ShearCell& test, Need need) {
   const auto ribs = [need](auto* own) {
     return [own, need](auto& fields) { read_dimensions(fields, *own, rib_dimensions, need); };
   };
-  apparatus.object({"lid_ribs", "of the plate above"}, need, ribs(&test.lid_ribs));
-  apparatus.object({"base_ribs", "of the plate below"}, need, ribs(&test.base_ribs));
-  read_tools(apparatus, "the surface of plates, ribs and sides", test.tools);
+  apparatus.object({"lid_ribs", "ribs of the upper plate, the lid"}, need, ribs(&test.lid_ribs));
+  apparatus.object({"base_ribs", "ribs of the lower plate, the base"}, need, ribs(&test.base_ribs));
+  read_tools(apparatus, "surface of the tools: die, punch, platen and floor; or plates, ribs and sides", test.tools);
 }
 std::vector<FilePlace> places_in_files(const ShearCell&);
 
@@ -37,8 +37,8 @@ double moved_time_s(const ShearCell& test);
 void describe_test(auto& fields, ShearCell& test) {
   describe_dimensions(fields, test, shear_dimensions);
   const auto ribs = [](auto* own) { return [own](auto& inner) { describe_dimensions(inner, *own, rib_dimensions); }; };
-  fields.object({"lid_ribs", "of the plate above"}, required, ribs(&test.lid_ribs));
-  fields.object({"base_ribs", "of the plate below"}, required, ribs(&test.base_ribs));
+  fields.object({"lid_ribs", "ribs of the upper plate, the lid"}, required, ribs(&test.lid_ribs));
+  fields.object({"base_ribs", "ribs of the lower plate, the base"}, required, ribs(&test.base_ribs));
   describe_specimen(fields, test);
   fields.object({"tools", "surface of all tools"}, required, [&](auto& wall) { describe_wall(wall, test.tools); });
 }

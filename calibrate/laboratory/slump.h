@@ -41,51 +41,49 @@ inline constexpr std::array<Named<TableMotion>, 2> table_motions{
 
 template <class Fields>
 void describe_apparatus(Fields& apparatus, SlumpTest& test, Need need) {
-  apparatus.object({"mould", "a frustum, open above and below"}, need,
+  apparatus.object({"mould", "the mould, a frustum that is open at both ends"}, need,
                    [&](auto& mould) { read_dimensions(mould, test.mould, mould_dimensions, need); });
   read_dimensions(apparatus, test, slump_dimensions, need);
   const bool has_plate = test.drop || (!Fields::reads && need == Need::optional);
   const Need plate_need = has_plate ? Need::optional : Need::required;
   apparatus.nullable_object(
-      {"drop_plate", "the plate of step 2, and of all drops after it; null: the test ends with step 1"}, test.drop,
-      Need::optional, [&](auto& plate, DropPlate& drop) {
-        plate.choice(
-            {"motion",
-             "hinged: a square plate turns up about an edge (EN 12350-5); vertical: a round table falls upright "
-             "(EN 1015-3, ASTM C230); default hinged"},
-            drop.motion, table_motions, Need::optional);
+      {"drop_plate",
+       "the plate or table that is dropped in step 2 and in all later drops; null: the test ends with step 1"},
+      test.drop, Need::optional, [&](auto& plate, DropPlate& drop) {
+        plate.choice({"motion",
+                      "hinged: a square plate rotates up about one edge and falls back (EN 12350-5); vertical: a round "
+                      "table falls vertically (EN 1015-3, ASTM C230); default hinged"},
+                     drop.motion, table_motions, Need::optional);
         if constexpr (Fields::reads)
           if (drop.motion == TableMotion::vertical)
             plate.refuse("lift_duration_s",
                          "is of a hinged plate: a cam raises a table so slowly that it takes no simulated time",
                          "leave it out");
         read_dimensions(plate, drop, plate_dimensions, plate_need);
-        plate.integer({"drops", "how often it drops; default 1, and the test ends with step 2"}, drop.drops, 1,
+        plate.integer({"drops", "number of drops; with the default, 1, the test ends with step 2"}, drop.drops, 1,
                       kMostDrops, Need::optional);
         read_dimensions(plate, drop, rhythm_dimensions, Need::optional);
       });
-  apparatus.nullable_object(
-      {"tilt",
-       "the table is tilted with the heap of step 1, until the heap slides; null or left out: not "
-       "tilted, unless the angle was measured"},
-      test.tilt, Need::optional,
-      [&](auto& tilt, Tilt& motion) { read_dimensions(tilt, motion, tilt_dimensions, need); });
-  apparatus.object({"reading", "how the ruler is held"}, need, [&](auto& reading) {
-    reading.choice(
-        {"height",
-         "axis: at the middle of the struck-off top where that has gone (ASTM C143); highest: at the highest "
-         "point (EN 12350-2)"},
-        test.reading.height, height_readings, need);
+  apparatus.nullable_object({"tilt",
+                             "tilting of the table after step 1, until the heap slides; null or left out: no tilting, "
+                             "unless the angle of sliding is among the readings"},
+                            test.tilt, Need::optional,
+                            [&](auto& tilt, Tilt& motion) { read_dimensions(tilt, motion, tilt_dimensions, need); });
+  apparatus.object({"reading", "how the heap is measured"}, need, [&](auto& reading) {
+    reading.choice({"height",
+                    "point whose height is read; axis: the displaced centre of the struck-off top (ASTM C143); "
+                    "highest: the highest point (EN 12350-2)"},
+                   test.reading.height, height_readings, need);
     read_dimensions(reading, test.reading, reading_dimensions, need);
     reading.nullable_object({"flow",
-                             "how the flow is timed, from the beginning of the lift; null or left out: not timed, "
-                             "unless a time was measured"},
+                             "timing of the flow from the beginning of the lift; null or left out: no timing, unless a "
+                             "time is among the readings"},
                             test.reading.flow, Need::optional, [&](auto& flow, FlowTiming& timing) {
                               read_dimensions(flow, timing, flow_dimensions, need);
                             });
     reading.nullable_object({"flank",
-                             "the part of the flank along which the angle of repose after step 1 is read; null or left "
-                             "out: not read, unless it was measured"},
+                             "part of the flank on which the angle of repose after step 1 is read; null or left out: "
+                             "not read, unless the angle is among the readings"},
                             test.reading.flank, Need::optional, [&](auto& flank, Flank& shares) {
                               read_dimensions(flank, shares, flank_dimensions, need);
                             });
@@ -102,35 +100,37 @@ double moved_time_s(const SlumpTest& test);
 
 /// In SI, with the unit in each key. Keys without a default are required.
 void describe_test(auto& fields, SlumpTest& test) {
-  fields.object({"mould", "a frustum"}, required,
+  fields.object({"mould", "the mould, a frustum that is open at both ends"}, required,
                 [&](auto& mould) { describe_dimensions(mould, test.mould, mould_dimensions); });
   describe_dimensions(fields, test, slump_dimensions);
   fields.nullable_object(
-      {"drop", "plate of step 2, and of all drops after it; null: the test ends with step 1"}, test.drop, required,
-      [](auto& drop, auto& plate) {
+      {"drop", "the plate or table that is dropped in step 2 and in all later drops; null: the test ends with step 1"},
+      test.drop, required, [](auto& drop, auto& plate) {
         const DropPlate usual;
         describe_dimensions(drop, plate, plate_dimensions);
-        drop.choice({"motion", "hinged where it is not said"}, plate.motion, table_motions, Default{usual.motion});
-        drop.integer({"drops", "how often it drops; once where it is not said"}, plate.drops, 1, kMostDrops,
-                     Default{usual.drops});
-        drop.number({"period_s", "from one drop to the next; 2 where it is not said"}, plate.period_s, any_number,
-                    Default{usual.period_s});
+        drop.choice({"motion", "motion of the plate, as in laboratory files; default hinged"}, plate.motion,
+                    table_motions, Default{usual.motion});
+        drop.integer({"drops", "number of drops; default 1"}, plate.drops, 1, kMostDrops, Default{usual.drops});
+        drop.number({"period_s", "time from one drop to the next, if there are several; default 2"}, plate.period_s,
+                    any_number, Default{usual.period_s});
       });
-  fields.optional_object({"tilt", "the table is tilted until the heap slides"}, test.tilt,
+  fields.optional_object({"tilt", "tilting of the table after step 1, until the heap slides"}, test.tilt,
                          [](auto& tilt, auto& motion) { describe_dimensions(tilt, motion, tilt_dimensions); });
-  fields.object({"reading", "how the ruler is held"}, required, [&](auto& reading) {
-    reading.choice({"height", "where, as in laboratory files"}, test.reading.height, height_readings, required);
+  fields.object({"reading", "how the heap is measured"}, required, [&](auto& reading) {
+    reading.choice({"height", "point whose height is read, as in laboratory files"}, test.reading.height,
+                   height_readings, required);
     describe_dimensions(reading, test.reading, reading_dimensions);
-    reading.pairs({"spread_curve_s_m", "measured spread against time, [s, m]"}, test.reading.spread_curve, any_number,
-                  any_number, Need::optional, 0);
-    reading.optional_object({"flow", "how the flow is timed"}, test.reading.flow,
+    reading.pairs({"spread_curve_s_m", "measured points [time in s, spread in m]"}, test.reading.spread_curve,
+                  any_number, any_number, Need::optional, 0);
+    reading.optional_object({"flow", "timing of the flow from the beginning of the lift"}, test.reading.flow,
                             [](auto& flow, auto& timing) { describe_dimensions(flow, timing, flow_dimensions); });
-    reading.optional_object({"flank", "where the angle of repose is read"}, test.reading.flank,
+    reading.optional_object({"flank", "part of the flank on which the angle of repose after step 1 is read"},
+                            test.reading.flank,
                             [](auto& flank, auto& shares) { describe_dimensions(flank, shares, flank_dimensions); });
-    reading.pairs({"outline_step1_m", "measured outline, [x, z]"}, test.reading.outline_step1, any_number, any_number,
-                  Need::optional, 0);
-    reading.pairs({"outline_step2_m", "measured outline, [x, z]"}, test.reading.outline_step2, any_number, any_number,
-                  Need::optional, 0);
+    reading.pairs({"outline_step1_m", "measured outline after step 1, points [x, z]"}, test.reading.outline_step1,
+                  any_number, any_number, Need::optional, 0);
+    reading.pairs({"outline_step2_m", "measured outline after step 2, points [x, z]"}, test.reading.outline_step2,
+                  any_number, any_number, Need::optional, 0);
   });
   describe_specimen(fields, test);
   fields.object({"mould_wall", "surface of the mould"}, required,

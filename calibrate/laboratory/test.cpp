@@ -170,7 +170,7 @@ nlohmann::ordered_json schema_of_tests(ObjectSchema& schema) {
   each_kind([&](auto kind) {
     forms.push_back(schema.described([&](ObjectSchema& form) {
       const Need need = kind_of(kind) == "slump" ? Need::optional : Need::required;
-      form.constant({"kind", "which laboratory test; a slump test where it is not said"}, kind_of(kind), need);
+      form.constant({"kind", "kind of laboratory test; default slump"}, kind_of(kind), need);
       describe_test(form, kind);
     }));
     return false;
@@ -183,7 +183,8 @@ nlohmann::ordered_json schema_of_apparatus(ObjectSchema& schema, bool presets) {
   if (presets)
     forms.push_back(schema.described([](ObjectSchema& form) {
       form.text({"preset",
-                 "name of a file of data/apparatus without .json; what stands beside it replaces what the file says"},
+                 "name of a file in data/apparatus, without .json; other keys of `apparatus` replace the values in "
+                 "that file"},
                 "", Need::required);
       SlumpTest any;
       describe_apparatus(form, any, Need::optional);

@@ -42,25 +42,28 @@ constexpr std::array<GrainLength, 4> grain_lengths{
     {{"radius_mm", "radius of every grain, or mean radius", &GrainSizes::radius_m, true, false, true},
      {"standard_deviation_mm", "standard deviation of the radius, before truncation", &GrainSizes::standard_deviation_m,
       false, false, true},
-     {"smallest_mm", "least radius", &GrainSizes::smallest_m, false, true, true},
+     {"smallest_mm", "smallest radius", &GrainSizes::smallest_m, false, true, true},
      {"largest_mm", "largest radius", &GrainSizes::largest_m, false, true, true}}};
 
 void describe_file_provenance(auto& fields, Provenance& provenance) {
-  fields.text({"source", "who measured, where, when; or the publication"}, provenance.source, Need::required);
+  fields.text({"source", "who measured, where and when; or the publication"}, provenance.source, Need::required);
   fields.text({"licence", "licence of the data"}, provenance.licence, Need::optional);
   fields.text({"notes", "other information, e.g. what was assumed"}, provenance.notes, Need::optional);
-  fields.flag({"twin", "true: simulated with known parameters, not measured"}, provenance.twin, Need::optional);
+  fields.flag({"twin", "true: the readings are simulated with known parameters, not measured"}, provenance.twin,
+              Need::optional);
 }
 
 void describe_density(auto& material, Specimen& specimen) {
-  material.number({"bulk_density_kg_m3", "mass over volume of the filled vessel, voids included"},
+  material.number({"bulk_density_kg_m3",
+                   "mass divided by volume of the filled vessel, voids included; in drop, pellet and shear tests: "
+                   "density of a grain"},
                   specimen.bulk_density_kg_m3, bulk_density, Need::required);
 }
 
 void describe_customary(auto& reading, CustomaryReading& one, const Range& range) {
   reading.shared("reading");
-  reading.number({"value", "usual, in the unit of the reading's key"}, one.value, range, Need::required);
-  reading.number({"standard_deviation", "of one reading, in the same unit"}, one.standard_deviation,
+  reading.number({"value", "usual value, in the unit of the reading's key"}, one.value, range, Need::required);
+  reading.number({"standard_deviation", "standard deviation of one reading, in the same unit"}, one.standard_deviation,
                  customary_deviation, Need::required);
 }
 
@@ -178,14 +181,14 @@ void read_provenance(ObjectReader& document, Provenance& provenance) {
 
 void tell_provenance(ObjectSchema& document) {
   Provenance any;
-  document.object({"provenance", "where the numbers come from"}, Need::required,
+  document.object({"provenance", "source of the data"}, Need::required,
                   [&](ObjectSchema& fields) { describe_file_provenance(fields, any); });
 }
 
 void tell_test(ObjectSchema& document, bool presets) {
-  const std::string usual = "which laboratory test; \"" + std::string(kind_of(Test())) + "\" where it is not said";
+  const std::string usual = "kind of laboratory test; default \"" + std::string(kind_of(Test())) + "\"";
   document.put({"test", usual}, {{"enum", kinds_of_tests()}}, Need::optional);
-  document.put({"apparatus", "dimensions and motions of the apparatus; its keys depend on the test"},
+  document.put({"apparatus", "dimensions and motions of the apparatus; the keys depend on the kind of test"},
                schema_of_apparatus(document, presets), Need::required);
 }
 
@@ -199,12 +202,13 @@ void tell_grains(ObjectSchema& document, Need need) {
   for (const auto& [name, distribution] : size_distributions)
     forms.push_back(document.described([&, word = name, own = distribution](ObjectSchema& form) {
       form.constant({"distribution",
-                     "mono: one radius; uniform: all radii of a range equally likely; normal: truncated at both ends"},
+                     "distribution of the radii; mono: one radius; uniform: all radii of a range are equally likely; "
+                     "normal: a normal distribution, truncated at both ends"},
                     word, Need::required);
       for (const GrainLength& one : grain_lengths)
         if (one.belongs_to(own)) form.number({one.key, one.meaning}, 0, grain_length, Need::required);
     }));
-  document.put({"grains", "grains of the simulation, not of the aggregate"}, {{"oneOf", forms}}, need);
+  document.put({"grains", "sizes of the simulated grains, not of the real aggregate"}, {{"oneOf", forms}}, need);
 }
 
 ObjectSchema::Json apparatus_schema() {
@@ -217,8 +221,8 @@ ObjectSchema::Json apparatus_schema() {
   schema.object({"material", "the fresh material"}, Need::required, tell_density);
   tell_grains(schema, Need::required);
   schema.object({"readings",
-                 "those that are customary, each with its usual value; `pastefit template lab` prints "
-                 "them"},
+                 "readings that are customary for this apparatus, each with its usual value; `pastefit template lab` "
+                 "prints them"},
                 Need::optional, [](ObjectSchema& readings) {
                   CustomaryReading any;
                   for (const ReadingKind& kind : all_reading_kinds())
@@ -228,12 +232,13 @@ ObjectSchema::Json apparatus_schema() {
                       });
                 });
   schema.texts(
-      {"standards", "whose apparatus it is, e.g. \"EN 12350-2\"; further names of the preset for `pastefit new`"}, {},
-      Need::optional);
-  schema.text({"caution",
-               "what everybody who uses it must know, one sentence without a full stop: said in every run "
-               "that names it"},
-              "", Need::optional);
+      {"standards",
+       "standards that define the apparatus, e.g. \"EN 12350-2\"; `pastefit new` accepts them as names of the preset"},
+      {}, Need::optional);
+  schema.text(
+      {"caution",
+       "warning for all users of the apparatus, one sentence without a full stop; runs with this preset print it"},
+      "", Need::optional);
   return document_schema("pastefit apparatus file", "An apparatus with a default material and default grains.",
                          std::move(object), std::move(definitions));
 }

@@ -209,12 +209,11 @@ ObjectSchema::Json lab_schema() {
   schema.constant({"format", "kind of file and version of its format"}, "pastefit-lab-1", Need::required);
   schema.text({"title", "title, one line"}, "", Need::required);
   schema.texts({"confirmed",
-                "keys of this file whose values look like a mistake but are correct, as the program names them: "
-                "[\"material.bulk_density_kg_m3\"]"},
+                "keys of unusual values that are correct, e.g. [\"material.bulk_density_kg_m3\"]; the messages of the "
+                "program name these keys"},
                {}, Need::optional);
-  schema.texts(
-      {"assumed", "keys of this file whose values are assumed, not measured: [\"apparatus.lift_velocity_mm_s\"]"}, {},
-      Need::optional);
+  schema.texts({"assumed", "keys of values that are assumed, not measured, e.g. [\"apparatus.lift_velocity_mm_s\"]"},
+               {}, Need::optional);
   tell_provenance(schema);
   tell_test(schema, true);
   schema.object({"material", "the fresh material"}, Need::required, [](ObjectSchema& material) {
@@ -225,21 +224,21 @@ ObjectSchema::Json lab_schema() {
   mix["propertyNames"]["pattern"] = "^[a-z][a-z0-9_]*$";
   mix["additionalProperties"] = {{"type", "number"}, {"minimum", -largest_quantity}, {"maximum", largest_quantity}};
   schema.put({"mix",
-              "amounts and properties of the mix, each under a name with its unit, e.g. water_kg_m3; shown in the "
-              "table of many studies, not simulated"},
+              "amounts and properties of the mix, each under a name that ends with its unit, e.g. water_kg_m3; not "
+              "simulated, but shown in tables of several studies"},
              std::move(mix), Need::optional);
   tell_grains(schema, Need::optional);
   Lab::Repeats any;
   schema.object({"repeats",
-                 "for tests with a heap: how many heaps were made and how many sheared off; a study without "
-                 "`rejected_share` allows at least this share"},
+                 "for tests with a heap: numbers of heaps made and sheared off; a study without `rejected_share` "
+                 "accepts at least this share of sheared-off heaps"},
                 Need::optional, [&](ObjectSchema& fields) { describe_repeats(fields, any); });
   tell_measurements(schema);
   object["if"]["not"]["properties"]["apparatus"]["required"].push_back("preset");
   object["then"]["required"].push_back("grains");
   return document_schema("pastefit laboratory file",
-                         "Measurements of one laboratory test. Only the program checks limits that depend on the "
-                         "apparatus (no heap higher than its vessel).",
+                         "Measurements of one laboratory test. The schema does not contain limits that depend on the "
+                         "apparatus, e.g. that no heap is higher than its vessel. The program checks these limits.",
                          std::move(object), std::move(definitions));
 }
 

@@ -270,13 +270,15 @@ namespace {
 
 /// {"value", "standard_deviation"} or {"repeats"}.
 ObjectSchema::Json told_measurement(ObjectSchema& schema, const std::string& name, const Range& range) {
-  const Key deviation("standard_deviation", "of one reading, in its unit; with repeats: instead of theirs");
+  const Key deviation("standard_deviation",
+                      "standard deviation of one reading, in its unit; with `repeats`, the larger of this value and "
+                      "the standard deviation of the repeats is used");
   const auto single = schema.described([&](ObjectSchema& form) {
     form.number({"value", "a single reading, or the mean of several"}, 0, range, Need::required);
     form.number(deviation, 0, deviations, Need::required);
   });
   const auto several = schema.described([&](ObjectSchema& form) {
-    form.numbers({"repeats", "all readings, each of a test of its own"}, {}, range, Need::required, 2);
+    form.numbers({"repeats", "readings of several tests, one number from each"}, {}, range, Need::required, 2);
     form.number(deviation, 0, deviations, Need::optional);
   });
   return schema.defined(name, {{"oneOf", {single, several}}});
@@ -288,12 +290,16 @@ ObjectSchema::Json told_points(ObjectSchema& schema, bool over_time) {
   return schema.described([&](ObjectSchema& form) {
     form.shared(over_time ? "spread_curve" : "profile");
     if (over_time)
-      form.pairs({"points", "[s, mm], ascending in time"}, {}, {0, most_mm}, {0, most_mm}, Need::required, 3);
+      form.pairs({"points", "points [time in s, spread in mm], in ascending order of time"}, {}, {0, most_mm},
+                 {0, most_mm}, Need::required, 3);
     else
-      form.pairs({"points", "[x, z] in mm, x from the middle of the table towards the free edge, ascending"}, {},
-                 {-most_mm, most_mm}, {-most_mm, most_mm}, Need::required, 5);
-    form.number({"standard_deviation", over_time ? "of a spread [mm]" : "of a height of the outline [mm]"}, 0,
-                deviations, Need::required);
+      form.pairs({"points",
+                  "points [x, z] in mm, in ascending order of x; x is measured from the centre of the table towards "
+                  "the free edge"},
+                 {}, {-most_mm, most_mm}, {-most_mm, most_mm}, Need::required, 5);
+    form.number({"standard_deviation", over_time ? "standard deviation of a spread, in mm"
+                                                 : "standard deviation of a height of the outline, in mm"},
+                0, deviations, Need::required);
   });
 }
 
@@ -302,8 +308,8 @@ ObjectSchema::Json told_points(ObjectSchema& schema, bool over_time) {
 void tell_yield_stress(ObjectSchema& material) {
   const auto [smallest, largest] = yield_stress_kind.possible;
   material.put({yield_stress_kind.key,
-                "by a vane or another rheometer; compared with what the readings say, never fitted; only of tests for "
-                "which a formula does"},
+                "yield stress measured with a vane or another rheometer; compared with the readings by a formula, not "
+                "fitted; only for tests that have such a formula"},
                told_measurement(material, "yield_stress", {smallest, largest}), Need::optional);
 }
 
@@ -331,7 +337,8 @@ void tell_measurements(ObjectSchema& lab) {
   });
   schema["minProperties"] = 1;
   schema["allOf"] = one_of_two;
-  lab.put({"measurements", "what was read, each either {`value`, `standard_deviation`} or {`repeats`}; at least one"},
+  lab.put({"measurements",
+           "measured readings, at least one; a number is given as {`value`, `standard_deviation`} or as {`repeats`}"},
           std::move(schema), Need::required);
 }
 

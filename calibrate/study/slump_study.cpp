@@ -30,31 +30,40 @@ struct ChosenLaws {
   std::string why;
 };
 
-/// Width relative to the cone of the same volume and height. Ordinary heaps have 0.7 to 0.95 of it, or are low.
-enum class HeapWidth { ordinary, narrow, wide };
-
 bool is_pat(std::span<const Measurement> measured) {
   return find_measurement(measured, "tilt.slide_angle_deg") != nullptr;
 }
+
+/// Width of the heap relative to the cone of the same volume and height; none if height or spread is missing, or the
+/// heap is a pat.
+std::optional<double> share_of_cone(const SlumpTest& test, std::span<const Measurement> measured) {
+  const auto* height = find_measurement(measured, "step1.height_mm");
+  const auto* spread = find_measurement(measured, "step1.spread_mm");
+  if (!height || !spread || is_pat(measured)) return std::nullopt;
+  return spread->value / cone_width_mm(test, height->value);
+}
+
+/// Ordinary heaps have 0.7 to 0.95 of a cone's width, or are low.
+enum class HeapWidth { ordinary, narrow, wide };
+constexpr double kWide = 0.95;
 
 /// Narrow heaps are narrower than any heap that slides on its table: with 0.43 to 0.5 of the Abrams cone's height and
 /// 0.67 of a cone's width, only grains that adhere to the table reproduce them, not friction alone. High friction
 /// between the grains reproduces wide ones (tests/results/concretes.md). The pat of an inclined plate keeps its shape.
 HeapWidth width_of(const SlumpTest& test, std::span<const Measurement> measured) {
-  constexpr double narrow = 0.7, low = 0.25, wide = 0.95;
-  const auto* height = find_measurement(measured, "step1.height_mm");
-  const auto* spread = find_measurement(measured, "step1.spread_mm");
-  if (!height || !spread || height->value < 1e3 * low * test.mould.height_m || is_pat(measured))
+  constexpr double narrow = 0.7, low = 0.25;
+  const std::optional<double> share = share_of_cone(test, measured);
+  if (!share || find_measurement(measured, "step1.height_mm")->value < 1e3 * low * test.mould.height_m)
     return HeapWidth::ordinary;
-  const double share = spread->value / cone_width_mm(test, height->value);
-  return share < narrow ? HeapWidth::narrow : share > wide ? HeapWidth::wide : HeapWidth::ordinary;
+  return *share < narrow ? HeapWidth::narrow : *share > kWide ? HeapWidth::wide : HeapWidth::ordinary;
 }
 
 /// Laws named in the sheet, otherwise those of the target that suit the readings. Heaps that keep more than half of
 /// their height get elasto-plastic adhesion where the target has it, because heaps of its other laws shear off or keep
-/// the mould's shape. Others get the target's first law: the strength of a bridge does not depend on the size of the
-/// mould (tests/results/laws.md). So do timed flows, because only a bridge has a viscosity, and sheets with a yield
-/// stress only.
+/// the mould's shape. So do heights with spreads, except of wide heaps, for LIGGGHTS, whose SJKR reproduces fewer of
+/// them; EDEM's elasto-plastic adhesion gives other heaps than the card (tests/results/laws.md). Others get the
+/// target's first law: the strength of a bridge does not depend on the size of the mould. So do timed flows, because
+/// only a bridge has a viscosity, and sheets with a yield stress only.
 ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
                    std::span<const Measurement> measured) {
   constexpr double stands = 0.5;
@@ -73,6 +82,10 @@ ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest&
                       " shear off there, heaps of elasto-plastic adhesion stand"};
   if (width_of(test, measured) == HeapWidth::narrow)
     return {*epa, "The heap is narrow: heaps of elasto-plastic adhesion that stick to the table are"};
+  const std::optional<double> share = share_of_cone(test, measured);
+  if (named.law == "sjkr" && share && *share <= kWide)
+    return {*epa, "Heaps of elasto-plastic adhesion reproduce more heights and spreads than heaps of " +
+                      std::string(named.law)};
   return first;
 }
 

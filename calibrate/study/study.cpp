@@ -31,20 +31,22 @@ void read_parameter(ObjectReader& reader, const ParameterKind& kind, Parameter& 
 
 void describe_choice(auto& fields, ContactModel& laws) {
   const Need optional = Need::optional;
-  fields.choice({"normal", "law of the overlap; default hertz", "laws.schema.json#/properties/normal"}, laws.normal,
-                normal_laws, optional);
-  fields.choice({"attraction", "across a gap; default polynomial", "laws.schema.json#/properties/attraction"},
+  fields.choice({"normal", "force law of overlapping grains; default hertz", "laws.schema.json#/properties/normal"},
+                laws.normal, normal_laws, optional);
+  fields.choice({"attraction", "law of the attraction across a gap; default polynomial",
+                 "laws.schema.json#/properties/attraction"},
                 laws.bridge.shape, bridge_shapes, optional);
-  fields.choice(
-      {"formation", "when a bridge forms: film, when liquid shells touch; touch, when grains do; default film"},
-      laws.bridge.formation, bridge_formations, optional);
-  fields.choice(
-      {"rolling_model", "resistance to rolling; default spring_dashpot", "laws.schema.json#/properties/rolling"},
-      laws.rolling, rolling_models, optional);
+  fields.choice({"formation",
+                 "event that forms a liquid bridge; film: the liquid shells of two grains touch; touch: the grains "
+                 "themselves touch; default film"},
+                laws.bridge.formation, bridge_formations, optional);
+  fields.choice({"rolling_model", "law of the rolling resistance; default spring_dashpot",
+                 "laws.schema.json#/properties/rolling"},
+                laws.rolling, rolling_models, optional);
   fields.choice(
       {"friction_basis",
-       "normal force in the friction limit: elastic, the repulsion alone, so that cohesion increases friction; total, "
-       "the whole normal force plus twice the largest attraction, as in LAMMPS; net, the whole normal force, so that "
+       "normal force in the friction limit; elastic: the repulsion alone, so that cohesion increases friction; total: "
+       "the whole normal force plus twice the largest attraction, as in LAMMPS; net: the whole normal force, so that "
        "grains in equilibrium between attraction and repulsion have no friction; default elastic"},
       laws.friction_basis, friction_bases, optional);
 }
@@ -183,17 +185,18 @@ ObjectSchema::Json study_schema() {
   schema.text({"title", "title, one line"}, "", Need::required);
   tell_tests(schema);
   ContactModel any;
-  schema.object({"contact", "the contact laws (data/README.md)"}, Need::optional,
+  schema.object({"contact", "contact laws; data/README.md describes them"}, Need::optional,
                 [&](ObjectSchema& fields) { describe_choice(fields, any); });
   Json parameters = schema.described([](ObjectSchema& fields) {
     for (const ParameterKind& kind : parameter_kinds()) tell_parameter(fields, kind);
   });
   parameters["minProperties"] = 1;
   schema.put({"parameters",
-              "each is either {`value`: NUMBER}, fixed, or {`free`: [LOWER, UPPER], `scale`: \"linear\" or \"log\", "
-              "`prior`: {`value`, `standard_deviation`}}, fitted between these bounds; a parameter that is not named "
-              "has its default value; a prior is a normal distribution, of the logarithm on a log scale, with "
-              "standard_deviation/value as its standard deviation"},
+              "Parameters of the contact laws. A fixed parameter is {`value`: NUMBER}. A fitted parameter is {`free`: "
+              "[LOWER, UPPER], `scale`: \"linear\" or \"log\", `prior`: {`value`, `standard_deviation`}}, where LOWER "
+              "and UPPER are its bounds; `scale` and `prior` are optional. A parameter that is not named has its "
+              "default value. A prior is a normal distribution. On a log scale, it is the normal distribution of the "
+              "logarithm, and standard_deviation/value is its standard deviation."},
              std::move(parameters), Need::required);
   tell_search_options(schema);
   const auto needed = [](const char* key) {
@@ -208,9 +211,10 @@ ObjectSchema::Json study_schema() {
   object["oneOf"].push_back(several);
   return document_schema(
       "pastefit study file",
-      "Which parameters are fitted to which measurements of one or several laboratory files, and how. Only the program "
-      "checks that bounds are in order, differ by more than a millionth, and by at most a factor of 1e12 on a log "
-      "scale; that at least one parameter is free; and that the laws use the named parameters.",
+      "A study gives the parameters to fit, the measurements of one or several laboratory files to which they are "
+      "fitted, and the options of the search. The program also checks rules that the schema does not contain. Bounds "
+      "must be in order and differ by more than a millionth. On a log scale, they may differ by at most a factor of "
+      "1e12. At least one parameter must be free. The contact laws must use every named parameter.",
       std::move(object), std::move(definitions));
 }
 
@@ -218,20 +222,23 @@ ObjectSchema::Json laws_schema() {
   ObjectSchema::Json object, definitions;
   ObjectSchema schema(object, definitions);
   schema.choice({"normal",
-                 "law of the overlap: hertz, elastic spheres; jkr, elastic spheres that stick; dmt, stiff ones; sjkr, "
-                 "an attraction in proportion to the area in which spheres meet; epa, elasto-plastic spheres that "
-                 "adhere (EEPA); luding, the same with linear springs"},
+                 "force law of overlapping grains; hertz: elastic spheres; jkr: elastic spheres that adhere; dmt: "
+                 "stiff spheres that adhere; sjkr: attraction proportional to the contact area of the spheres; epa: "
+                 "elasto-plastic spheres that adhere (EEPA); luding: like epa, but with linear springs"},
                 NormalLaw(), normal_laws, Need::optional);
   schema.choice({"attraction",
-                 "across a gap: polynomial, a d^2 + b d + c for d_c <= d <= 0; linear, to zero at d_c; exponential, c "
-                 "exp(3 d/|d_c|); capillary, a liquid bridge of given volume"},
+                 "attraction across a gap, where -d is the gap and -d_c the rupture gap; polynomial: a d^2 + b d + c "
+                 "for d_c <= d <= 0; linear: decreases to zero at d_c; exponential: c exp(-3 d/d_c); capillary: a "
+                 "liquid bridge of given volume"},
                 BridgeShape(), bridge_shapes, Need::optional);
-  schema.choice(
-      {"rolling", "resistance to rolling: spring_dashpot, elastic and plastic; constant_torque, against the spin"},
-      RollingModel(), rolling_models, Need::optional);
-  return document_schema("pastefit contact laws",
-                         "The words of studies, cards and cases for the laws of core/laws (core/laws/README.md).",
-                         std::move(object), std::move(definitions));
+  schema.choice({"rolling",
+                 "rolling resistance; spring_dashpot: an elastic-plastic spring with a dashpot; constant_torque: a "
+                 "constant torque against the spin"},
+                RollingModel(), rolling_models, Need::optional);
+  return document_schema(
+      "pastefit contact laws",
+      "Names of the contact laws in studies, cards and cases. core/laws/README.md describes the laws.",
+      std::move(object), std::move(definitions));
 }
 
 }  // namespace pastefit

@@ -14,33 +14,40 @@ namespace {
 
 void describe_search_options(auto& fields, SearchOptions& search) {
   constexpr int most = 1'000'000;
-  fields.text({"strategy", "\"default\", or the name of an algorithm (calibrate/search/README.md)"}, search.strategy,
-              Need::optional);
-  fields.integer({"screening", "candidates spread over the bounds before the search; default 8"}, search.screening, 0,
-                 most, Need::optional);
-  fields.integer({"budget_simulations", "simulations in total, including confirmation and examination; default 60"},
-                 search.budget_simulations, 1, most, Need::optional);
+  fields.text({"strategy", "\"default\", or the name of another strategy in calibrate/search/README.md"},
+              search.strategy, Need::optional);
   fields.integer(
-      {"packings", "random packings that all candidates of an optimiser share, and all coarse simulations; default 2"},
+      {"screening", "number of candidates, spread over the bounds, that are simulated before the search; default 8"},
+      search.screening, 0, most, Need::optional);
+  fields.integer(
+      {"budget_simulations", "largest number of simulations, including confirmation and examination; default 60"},
+      search.budget_simulations, 1, most, Need::optional);
+  fields.integer(
+      {"packings",
+       "number of random packings that all candidates of an optimiser and all coarse simulations share; default 2"},
       search.packings, 1, 1000, Need::optional);
-  fields.integer({"max_pending", "candidates that may be pending when the next one is chosen; default 0"},
-                 search.max_pending, 0, 1000, Need::optional);
-  fields.integer({"confirmation_packings", "fresh packings of the first decision on the best candidate; default 4"},
-                 search.confirmation_packings, 1, 1000, Need::optional);
+  fields.integer(
+      {"max_pending", "number of candidates that may still be running when the next candidate is chosen; default 0"},
+      search.max_pending, 0, 1000, Need::optional);
+  fields.integer(
+      {"confirmation_packings", "number of new packings for the first decision on the best candidate; default 4"},
+      search.confirmation_packings, 1, 1000, Need::optional);
   fields.number({"rejected_share",
-                 "largest share of heaps that may shear off; 1: not judged; default 0.2, or the measured share "
-                 "(`repeats` of the laboratory file) if that is larger"},
+                 "largest accepted share of heaps that shear off; 1: the share is not judged; default: 0.2, or the "
+                 "measured share (`repeats` in the laboratory file) if that is larger"},
                 search.rejected_share, {0, 1}, Need::optional);
-  fields.integer({"examination_simulations", "simulations of the budget for other materials that may fit; default 12"},
-                 search.examination_simulations, 0, most, Need::optional);
+  fields.integer(
+      {"examination_simulations",
+       "number of simulations in the budget for the examination of other materials that may fit; default 12"},
+      search.examination_simulations, 0, most, Need::optional);
   fields.nullable_number({"tolerance_mm",
-                          "tolerance of every length without an entry in `tolerances`; null or not given: the standard "
-                          "deviation of the measurement, for a heap at least half a grain radius"},
+                          "tolerance of every length without an entry in `tolerances`; null or left out: the standard "
+                          "deviation of the measurement, but at least half a grain radius for a heap"},
                          search.tolerance_mm, {1e-6, 1000}, Need::optional);
   fields.flag({"coarse_first", "true: candidates are first simulated with coarse grains"}, search.coarse_first,
               Need::optional);
-  fields.flag({"end_early", "false: simulations far below the measured height are not stopped"}, search.end_early,
-              Need::optional);
+  fields.flag({"end_early", "false: simulations are not stopped even if the heap sinks far below the measured height"},
+              search.end_early, Need::optional);
   fields.integer({"seed", "seed of the search and of its packings; default 1"}, search.seed, Need::optional);
 }
 
@@ -129,9 +136,10 @@ void tell_parameter(ObjectSchema& parameters, const ParameterKind& kind) {
     form.choice("scale", kind.scale, scales, Need::optional);
     form.object("prior", Need::optional, [](ObjectSchema& prior) {
       prior.shared("prior");
-      prior.number({"value", "mean, within the bounds"}, 0, Range{}, Need::required);
+      prior.number({"value", "mean of the prior, within the bounds"}, 0, Range{}, Need::required);
       prior.number({"standard_deviation",
-                    "standard deviation of the prior; from a millionth to a million times the width of the bounds"},
+                    "standard deviation of the prior; at least a millionth and at most a million times the distance "
+                    "between the bounds"},
                    0, {0, largest_quantity, true}, Need::required);
     });
   });

@@ -169,26 +169,30 @@ void tell_numbers(ObjectSchema& study, const Key& key, const Range& range) {
 void tell_tests(ObjectSchema& study) {
   using Json = ObjectSchema::Json;
   const Json lab{{"type", {"string", "object"}}};
-  study.put({"lab", "laboratory file of a study with one test, or its content"}, lab, Need::optional);
+  study.put({"lab", "laboratory file of a study with one test: its path or its content"}, lab, Need::optional);
   const Json test = study.described([&](ObjectSchema& one) {
-    one.put({"name", "prefix of the test's readings in tables"},
+    one.put({"name", "name of the test; in tables, it precedes the names of the test's readings"},
             {{"type", "string"}, {"pattern", "^[A-Za-z0-9._-]{1,40}$"}}, Need::required);
-    one.put({"lab", "its laboratory file, or the content of one"}, lab, Need::required);
-    one.flag({"hold_out", "true: validation test, predicted and compared, not fitted"}, false, Need::optional);
-    one.put({"weights", "as `weights`"}, {{"$ref", "#/properties/weights"}}, Need::optional);
-    one.put({"tolerances", "as `tolerances`"}, {{"$ref", "#/properties/tolerances"}}, Need::optional);
+    one.put({"lab", "laboratory file of the test: its path or its content"}, lab, Need::required);
+    one.flag({"hold_out", "true: a validation test, which is predicted and compared but not fitted"}, false,
+             Need::optional);
+    one.put({"weights", "weights of the readings of this test, in the form of `weights`"},
+            {{"$ref", "#/properties/weights"}}, Need::optional);
+    one.put({"tolerances", "tolerances of the readings of this test, in the form of `tolerances`"},
+            {{"$ref", "#/properties/tolerances"}}, Need::optional);
   });
-  study.put({"tests", "several tests of one material"},
+  study.put({"tests", "the tests of a study that has several; all tests are of one material"},
             {{"type", "array"}, {"minItems", 1}, {"maxItems", most_tests}, {"items", test}}, Need::optional);
-  tell_numbers(
-      study,
-      {"weights",
-       "weight of each measured reading in the fit, by the names of `measurements`; default 1; 0: shown, not fitted"},
-      weights);
+  tell_numbers(study,
+               {"weights",
+                "weights of the measured readings in the fit, by the names of `measurements` in the laboratory file; "
+                "default 1; 0: the reading is shown but not fitted"},
+               weights);
   tell_numbers(study,
                {"tolerances",
-                "largest accepted difference of a fitted reading, in its unit, by the names of `measurements`; "
-                "default: tolerance_mm for a length, and one standard deviation of the measurement otherwise"},
+                "largest accepted differences between simulated and measured readings, in the unit of the reading, by "
+                "the names of `measurements` in the laboratory file; default: search.tolerance_mm for lengths, and one "
+                "standard deviation of the measurement for other readings"},
                tolerances);
 }
 

@@ -34,11 +34,12 @@ void check_dimensions(FieldChecker& check, const Owner& owner, const std::array<
 
 /// The dimensions of every surface of an apparatus.
 inline constexpr std::array<Dimension<WallContact>, 4> surface_dimensions{{
-    {"restitution", &WallContact::restitution, 0.001, 1, "rebound speed over impact speed, without attraction", true},
-    {"friction", &WallContact::friction, 0, 10, "sliding friction of granules on it", true},
-    {"rolling_friction", &WallContact::rolling_friction, 0, 10, "rolling friction of granules on it", true},
-    {"cohesion_factor", &WallContact::cohesion_factor, 0, 10, "share of the granules' attraction that acts on it",
+    {"restitution", &WallContact::restitution, 0.001, 1, "rebound speed divided by impact speed, without attraction",
      true},
+    {"friction", &WallContact::friction, 0, 10, "sliding friction of grains on this surface", true},
+    {"rolling_friction", &WallContact::rolling_friction, 0, 10, "rolling friction of grains on this surface", true},
+    {"cohesion_factor", &WallContact::cohesion_factor, 0, 10,
+     "share of the grains' attraction that acts on this surface", true},
 }};
 
 }  // namespace pastefit

@@ -96,7 +96,7 @@ class Tables:
     def table(self, schema):
         self.rows = {}
         self.walk(schema)
-        lines = ["| key | value | is |", "|---|---|---|"]
+        lines = ["| key | value | meaning |", "|---|---|---|"]
         for path, (description, values, required) in self.rows.items():
             values = " or ".join(sorted(set(values), key=values.index))
             lines.append(f"| `{path}`{'' if all(required) else ' (optional)'} | {values} | {description} |".replace("||", "| |"))
@@ -104,10 +104,10 @@ class Tables:
 
     def text(self, name):
         lines = [f"# {self.schema['title'][0].upper() + self.schema['title'][1:]}", "", self.schema["description"], "",
-                 f"Made by `make_tables.py` from `{name}.schema.json`. Each key is given with its full path, e.g. "
-                 "`apparatus.reading.height`. In a path, `[]` stands for every element of a list, and `NAME` stands for any name. Some "
-                 "objects have several forms. A row then applies only to the forms that contain the key; `(optional)` means that at "
-                 "least one of these forms does not require it.", ""]
+                 f"`make_tables.py` generates this page from `{name}.schema.json`. Each key is given with its full path, e.g. "
+                 "`apparatus.reading.height`. In a path, `[]` stands for any element of a list, and `NAME` stands for any name. Some "
+                 "objects have several forms, and a key may exist in only some of these forms. `(optional)` means that the key can be "
+                 "left out in at least one of the forms in which it exists.", ""]
         lines += self.table(self.schema)
         for part, schema in sorted(self.schema.get("definitions", {}).items()):
             if self.has_keys(schema):

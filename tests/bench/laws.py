@@ -2,10 +2,10 @@
 """Typical laboratory sheets, calibrated as `pastefit new` sets them up, with each law of attraction.
 
 usage: laws.py PROGRAM TABLE.csv [--sheets structural,en,stiff,uci:79,...] [--laws epa,bridge] [--seeds 1,2] [--at-once 2]
-                                 [--search KEY=VALUE ...] [--parameters JSON] [--foreign 16]
+                                 [--search KEY=VALUE ...] [--parameters JSON] [--foreign 16] [--target edem]
        laws.py --report TABLE.csv
 
-structural: Abrams cone, slumps 95, 110 and 100 mm, spread 270 mm. en: EN 12350-5 with one drop. stiff: slumps of 40 to 120
+readme: the sheet of the README. structural: Abrams cone, slumps 95, 110 and 100 mm, spread 270 mm. en: EN 12350-5 with one drop. stiff: slumps of 40 to 120
 mm with spreads of 0.8 and 0.9 of the width of a cone of the mould's volume and the heap's height; slump-80-0.9: one of them.
 uci:NN: a concrete of Yeh's slump tests; uci:all: those whose spread is at most 1.1 of that width. The law `new` is the one
 that `pastefit new` chooses. Existing rows are not run again. Each material is simulated on packings 201 to 216 (number:
@@ -44,7 +44,9 @@ def concretes():
 def sheets_of(words):
     sheets = {}
     for word in words.split(","):
-        if word == "structural":
+        if word == "readme":
+            sheets[word] = ["--mould", "abrams", "--density", "2350", "--slump", "180, 175, 190", "--spread", "330"]
+        elif word == "structural":
             sheets[word] = ["--mould", "abrams", "--density", "2280", "--slump", "95, 110, 100", "--spread", "270"]
         elif word == "en":
             sheets[word] = ["--mould", "hinged-plate", "--density", "1900", "--height", "135", "--height2", "118", "--sag", "9",
@@ -92,7 +94,7 @@ def seconds_of(process):
 def run(program, sheet, words, law, seed, options):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        done = subprocess.run([program, "new", folder, *words, *([] if law == "new" else ["--law", law])], capture_output=True, text=True)
+        done = subprocess.run([program, "new", folder, *words, "--for", options.target, *([] if law == "new" else ["--law", law])], capture_output=True, text=True)
         if done.returncode:
             raise SystemExit(f"{sheet}: {done.stderr}")
         study = without_comments((folder / "study.json").read_text())
@@ -176,6 +178,7 @@ if __name__ == "__main__":
     parser.add_argument("--at-once", type=int, default=2)
     parser.add_argument("--search", action="append", default=[], type=lambda text: (text.split("=")[0], json.loads(text.split("=")[1])))
     parser.add_argument("--foreign", type=int, default=16, help="packings of each material besides")
+    parser.add_argument("--target", default="lammps", help="program that the material is for")
     parser.add_argument("--parameters", default="{}", help="JSON that replaces some of the study's parameters")
     parser.add_argument("--report", action="store_true")
     chosen = parser.parse_args()

@@ -35,7 +35,7 @@ def measure(options):
         with open(options.table) as file:
             known = {(row["mix"], row["fitted"]) for row in csv.DictReader(file)}
     words = ",".join(f"uci:{mix}" for mix in options.mixes.split(",")) if options.mixes else "uci:all"
-    chosen = SimpleNamespace(search={}, parameters="{}", foreign=options.packings)
+    chosen = SimpleNamespace(search={}, parameters="{}", foreign=options.packings, target="lammps")
     with open(options.table, "a", newline="") as file:
         rows = csv.writer(file)
         if not known and file.tell() == 0:

@@ -111,6 +111,8 @@ test("the scene draws, plays, turns and is sliced", async () => {
     });
   const begun = await state();
   await page.waitForTimeout(1500);
+  const goesOn = (/** @type {number} */ time) => document.getElementsByClassName("player")[0].player.time > time;
+  await page.waitForFunction(goesOn, begun.time);
   const later = await state();
   console.log(`${(((later.pictures - begun.pictures) * 1e3) / (later.now - begun.now)).toFixed(1)} pictures a second`);
   assert.ok(later.time > begun.time);
@@ -213,7 +215,7 @@ test("hovering shows a candidate, and so do the arrow keys", async () => {
   await page.mouse.move(x + width / 2, y + height / 2);
   const isOther = (/** @type {string} */ text) =>
     /** @type {HTMLElement} */ (document.getElementsByClassName("candidate")[0]).innerText !== text;
-  await page.waitForFunction(isOther, first, { timeout: 5000 });
+  await page.waitForFunction(isOther, first);
   assert.match(await shown.innerText(), /Simulation \d+/);
   assert.ok((await page.locator(".candidate-picture circle").count()) > 0);
   const heap = (await page.locator(".candidate-picture.sketch polyline.own").getAttribute("points")) ?? "";

@@ -31,7 +31,8 @@ def main():
         folder.mkdir(exist_ok=True)
         words = [word.format(study=study, out=folder) for word in command]
         preloaded = {"LD_PRELOAD": library, "PASTEFIT_FAIL": fault, "PASTEFIT_CALLS": str(counts)} if fault else {}
-        return subprocess.run(words, capture_output=True, text=True, timeout=60, env={**os.environ, **preloaded})
+        alone = {"OPENBLAS_NUM_THREADS": "1"}  # a BLAS may start a thread for each processor, and end the program without
+        return subprocess.run(words, capture_output=True, text=True, timeout=60, env={**os.environ, **alone, **preloaded})
 
     def calls():
         return {kind: int(number) for kind, number in map(str.split, counts.read_text().splitlines())}

@@ -25,7 +25,7 @@ def main():
             counts.unlink(missing_ok=True)
             result = subprocess.run([program, "simulate", lab, "--threads", "2", "--json"], capture_output=True, text=True,
                                     env={**os.environ, "LD_PRELOAD": library, "PASTEFIT_FAIL": f"thread {fault}",
-                                         "PASTEFIT_CALLS": str(counts)})
+                                         "PASTEFIT_CALLS": str(counts), "OPENBLAS_NUM_THREADS": "1"})
             if result.returncode != 0:
                 sys.exit(f"thread {fault}: ended with {result.returncode}: {result.stderr}")
             started = dict(line.split() for line in counts.read_text().splitlines())["thread"]

@@ -164,9 +164,10 @@ void judge_run(const StressCase& stress, const Bounds& bounds, StressVerdict& ve
   Witness witness(stress);
   RunOptions options;
   options.step_limit = bounds.steps;
+  options.pulse = [&](const Snapshot&) { return cpu_seconds() - start < bounds.cpu_s; };
   options.watch = [&](const Snapshot& snapshot) {
     witness.look(snapshot);
-    return cpu_seconds() - start < bounds.cpu_s;
+    return options.pulse(snapshot);
   };
   if (const auto failure = stress.searched ? too_soft(stress.test, options) : std::nullopt) {
     verdict.end = name_of(failure->reason);

@@ -73,7 +73,8 @@ def _executor(arguments: argparse.Namespace) -> ContextManager[Any]:
     if "mpi4py.futures" in sys.modules and arguments.processes is None:
         from mpi4py.futures import MPIPoolExecutor
         return MPIPoolExecutor()
-    return futures.ProcessPoolExecutor(arguments.processes or processors(), initializer=end_with_parent)
+    return futures.ProcessPoolExecutor(arguments.processes or processors(), initializer=end_with_parent,
+                                       initargs=(os.getpid(),))
 
 
 def main(words: Optional[List[str]] = None) -> int:

@@ -19,9 +19,8 @@ def _always() -> bool:
     return True
 
 
-def end_with_parent() -> None:
-    """Ends this process soon after the one that has started it, also if that was killed: an initializer of pools."""
-    parent = os.getppid()
+def end_with_parent(parent: int) -> None:
+    """Ends this process soon after its parent with this number, also if that was killed: an initializer of pools."""
 
     def watch() -> None:
         while os.getppid() == parent:

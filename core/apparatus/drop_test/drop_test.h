@@ -27,9 +27,9 @@ struct DropTest : Specimen {
 };
 
 inline constexpr std::array<Dimension<DropTest>, 2> drop_dimensions{{
-    {"drop_height_m", &DropTest::drop_height_m, 1e-3, 20, "the way the ball falls until it touches the plate"},
+    {"drop_height_m", &DropTest::drop_height_m, 1e-3, 20, "height of fall until the ball touches the plate"},
     {"plate_tilt_rad", &DropTest::plate_tilt_rad, 0, 80 * std::numbers::pi / 180,
-     "of the tilted plate; 0 or left out: only the level one", true},
+     "angle of the tilted plate; 0 or left out: the ball drops only on the level plate", true},
 }};
 
 /// Returns the reasons why the test cannot run; empty if it can. Places are field paths, e.g. "drop_height_m".

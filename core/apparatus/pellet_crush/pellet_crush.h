@@ -36,14 +36,17 @@ struct PelletCrush : Specimen {
 };
 
 inline constexpr std::array<Dimension<PelletCrush>, 8> pellet_dimensions{{
-    {"die_diameter_m", &PelletCrush::die_diameter_m, 1e-4, 1, "inner"},
-    {"fill_height_m", &PelletCrush::fill_height_m, 1e-4, 1, "at which the granules are struck off"},
-    {"pour_speed_m_s", &PelletCrush::pour_speed_m_s, 1e-3, 10, "at which granules arrive in the die", true},
-    {"pressed_height_m", &PelletCrush::pressed_height_m, 1e-4, 1, "of the bed when the punch turns round"},
-    {"punch_speed_m_s", &PelletCrush::punch_speed_m_s, 1e-7, 10, "of the punch that presses the granules"},
-    {"press_speedup", &PelletCrush::press_speedup, 1, 1e6, "the simulation presses so many times as fast", true},
-    {"platen_speed_m_s", &PelletCrush::platen_speed_m_s, 1e-4, 10, "of the platen that crushes the pellet"},
-    {"final_strain", &PelletCrush::final_strain, 0.01, 0.8, "of the pellet, at which the platen stops", true},
+    {"die_diameter_m", &PelletCrush::die_diameter_m, 1e-4, 1, "inner diameter of the die"},
+    {"fill_height_m", &PelletCrush::fill_height_m, 1e-4, 1,
+     "height at which the poured granules are struck off; in a shear cell, measured from the base plate"},
+    {"pour_speed_m_s", &PelletCrush::pour_speed_m_s, 1e-3, 10,
+     "speed at which poured granules arrive in the die or cell", true},
+    {"pressed_height_m", &PelletCrush::pressed_height_m, 1e-4, 1, "height of the bed at the end of pressing"},
+    {"punch_speed_m_s", &PelletCrush::punch_speed_m_s, 1e-7, 10, "speed of the punch in the laboratory"},
+    {"press_speedup", &PelletCrush::press_speedup, 1, 1e6,
+     "speed of the simulated punch, divided by its speed in the laboratory", true},
+    {"platen_speed_m_s", &PelletCrush::platen_speed_m_s, 1e-4, 10, "speed of the platen that crushes the pellet"},
+    {"final_strain", &PelletCrush::final_strain, 0.01, 0.8, "strain of the pellet at which the platen stops", true},
 }};
 
 /// Returns the reasons why the test cannot run; empty if it can. Places are field paths, e.g. "die_diameter_m".

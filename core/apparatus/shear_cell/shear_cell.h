@@ -43,21 +43,26 @@ struct ShearCell : Specimen {
 };
 
 inline constexpr std::array<Dimension<RibSizes>, 3> rib_dimensions{{
-    {"height_m", &RibSizes::height_m, 0, 1, "from the plate to the crest; 0: none"},
-    {"thickness_m", &RibSizes::thickness_m, 1e-6, 1, "along the motion"},
-    {"pitch_m", &RibSizes::pitch_m, 1e-6, 1, "from one rib to the next"},
+    {"height_m", &RibSizes::height_m, 0, 1, "height of a rib from the plate to its crest; 0: no ribs"},
+    {"thickness_m", &RibSizes::thickness_m, 1e-6, 1, "thickness of a rib along the motion"},
+    {"pitch_m", &RibSizes::pitch_m, 1e-6, 1, "distance from one rib to the next"},
 }};
 inline constexpr std::array<Dimension<ShearCell>, 9> shear_dimensions{{
     {"length_m", &ShearCell::length_m, 1e-4, 1,
-     "of the piece that is simulated, along the motion; it repeats without end"},
-    {"width_m", &ShearCell::width_m, 1e-4, 1, "between the sides"},
-    {"fill_height_m", &ShearCell::fill_height_m, 1e-4, 1, "above the base plate, at which the granules are struck off"},
-    {"pour_speed_m_s", &ShearCell::pour_speed_m_s, 1e-3, 10, "at which granules arrive in the cell", true},
-    {"normal_stress_pa", &ShearCell::normal_stress_pa, 1, 1e7, "of the lid, its weight and what presses on it"},
-    {"lid_speed_m_s", &ShearCell::lid_speed_m_s, 1e-4, 10, "at which the lid sinks where nothing resists", true},
-    {"shear_speed_m_s", &ShearCell::shear_speed_m_s, 1e-8, 1, "of the base"},
-    {"shear_speedup", &ShearCell::shear_speedup, 1, 1e6, "the simulation shears so many times as fast", true},
-    {"final_displacement_m", &ShearCell::final_displacement_m, 1e-5, 1, "of the base"},
+     "length of the simulated slice along the motion; the slice is periodic"},
+    {"width_m", &ShearCell::width_m, 1e-4, 1, "distance between the sides"},
+    {"fill_height_m", &ShearCell::fill_height_m, 1e-4, 1,
+     "height at which the poured granules are struck off; in a shear cell, measured from the base plate"},
+    {"pour_speed_m_s", &ShearCell::pour_speed_m_s, 1e-3, 10, "speed at which poured granules arrive in the die or cell",
+     true},
+    {"normal_stress_pa", &ShearCell::normal_stress_pa, 1, 1e7,
+     "normal stress of the lid, from its weight and its load"},
+    {"lid_speed_m_s", &ShearCell::lid_speed_m_s, 1e-4, 10, "sinking speed of the lid without resistance", true},
+    {"shear_speed_m_s", &ShearCell::shear_speed_m_s, 1e-8, 1, "speed of the base in the laboratory"},
+    {"shear_speedup", &ShearCell::shear_speedup, 1, 1e6,
+     "speed of the simulated base, divided by its speed in the laboratory", true},
+    {"final_displacement_m", &ShearCell::final_displacement_m, 1e-5, 1,
+     "displacement of the base at the end of the test"},
 }};
 
 /// Returns the reasons why the test cannot run; empty if it can. Places are field paths, e.g. "lid_ribs.height_m".

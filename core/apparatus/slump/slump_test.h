@@ -114,44 +114,48 @@ double fall_time_s(const DropPlate& plate);
 double moving_time_s(const DropPlate& plate);
 
 inline constexpr std::array<Dimension<Mould>, 3> mould_dimensions{{
-    {"base_radius_m", &Mould::base_radius_m, 1e-3, 2, "inner, below"},
-    {"top_radius_m", &Mould::top_radius_m, 1e-3, 2, "inner, above; wider than below: a cone upside down"},
-    {"height_m", &Mould::height_m, 1e-3, 2, "to the rim"},
+    {"base_radius_m", &Mould::base_radius_m, 1e-3, 2, "inner size of the mould at the bottom"},
+    {"top_radius_m", &Mould::top_radius_m, 1e-3, 2,
+     "inner size of the mould at the top; for an inverted cone, it is larger than at the bottom"},
+    {"height_m", &Mould::height_m, 1e-3, 2, "height of the mould"},
 }};
 inline constexpr std::array<Dimension<SlumpTest>, 2> slump_dimensions{{
-    {"table_length_m", &SlumpTest::table_length_m, 2e-3, 10, "side of the square table, and of the plate"},
-    {"lift_velocity_m_s", &SlumpTest::lift_velocity_m_s, 1e-3, 5, "at which the mould is lifted, straight upwards",
+    {"table_length_m", &SlumpTest::table_length_m, 2e-3, 10, "side length of the square table under the mould"},
+    {"lift_velocity_m_s", &SlumpTest::lift_velocity_m_s, 1e-3, 5, "speed at which the mould is lifted vertically",
      false, true},
 }};
 inline constexpr std::array<Dimension<DropPlate>, 4> plate_dimensions{{
-    {"length_m", &DropPlate::length_m, 2e-3, 10, "side of the square plate, diameter of the round one"},
-    {"mass_kg", &DropPlate::mass_kg, 0.1, 1000, "of the plate alone"},
-    {"lift_height_m", &DropPlate::lift_height_m, 1e-4, 1, "of its free edge, or of the whole table, before it drops"},
-    {"lift_duration_s", &DropPlate::lift_duration_s, 0.01, 60, "in which it is turned up about its hinge; default 0.5",
+    {"length_m", &DropPlate::length_m, 2e-3, 10, "side length of a square plate, or diameter of a round table"},
+    {"mass_kg", &DropPlate::mass_kg, 0.1, 1000, "mass of the plate without the heap"},
+    {"lift_height_m", &DropPlate::lift_height_m, 1e-4, 1,
+     "rise of the free edge of a hinged plate, or of the whole round table, before the drop"},
+    {"lift_duration_s", &DropPlate::lift_duration_s, 0.01, 60, "time in which a hinged plate is raised; default 0.5",
      true},
 }};
 inline constexpr std::array<Dimension<DropPlate>, 1> rhythm_dimensions{{
-    {"period_s", &DropPlate::period_s, 0.02, 60, "from one drop to the next, of several; default 2", true},
+    {"period_s", &DropPlate::period_s, 0.02, 60, "time from one drop to the next, if there are several; default 2",
+     true},
 }};
 inline constexpr std::array<Dimension<ReadingMethod>, 2> reading_dimensions{{
     {"probe_diameter_m", &ReadingMethod::probe_diameter_m, 1e-6, 4,
-     "of the disc over which a height at the axis is taken", true},
+     "diameter of the disc over which a height at the axis is averaged", true},
     {"sag_window_m", &ReadingMethod::sag_window_m, 1e-6, 10,
-     "width about the axis over which the sag of the plateau is taken", true},
+     "width, centred on the axis, over which the sag of the plateau is read", true},
 }};
 inline constexpr std::array<Dimension<FlowTiming>, 1> flow_dimensions{{
-    {"diameter_m", &FlowTiming::diameter_m, 2e-3, 10, "of the circle that step1.t500_s is the time to; default 500",
+    {"diameter_m", &FlowTiming::diameter_m, 2e-3, 10, "spread that is reached at the time step1.t500_s; default 500",
      true},
 }};
 inline constexpr std::array<Dimension<Tilt>, 2> tilt_dimensions{{
-    {"rate_deg_s", &Tilt::rate_deg_s, 0.1, 45, "at which the table is tilted; default 3", true},
-    {"slide_m", &Tilt::slide_m, 1e-4, 1, "of the heap's base down the table, that counts as sliding; default 5", true},
+    {"rate_deg_s", &Tilt::rate_deg_s, 0.1, 45, "angular speed of the tilting table; default 3", true},
+    {"slide_m", &Tilt::slide_m, 1e-4, 1, "motion of the heap's base down the table that counts as sliding; default 5",
+     true},
 }};
 inline constexpr std::array<Dimension<Flank>, 2> flank_dimensions{{
-    {"lower_share", &Flank::lower_share, 0, 0.9, "of the heap's height, from which the flank is read; default 0.2",
-     true},
-    {"upper_share", &Flank::upper_share, 0.1, 1, "of the heap's height, up to which the flank is read; default 0.8",
-     true},
+    {"lower_share", &Flank::lower_share, 0, 0.9,
+     "lower end of the part that is read, as a share of the heap's height; default 0.2", true},
+    {"upper_share", &Flank::upper_share, 0.1, 1,
+     "upper end of the part that is read, as a share of the heap's height; default 0.8", true},
 }};
 
 /// Returns the reasons why the test cannot run (dimensions, ranges, inadmissible bridge, too few grains in the mould);

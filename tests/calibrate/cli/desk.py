@@ -2,14 +2,19 @@
 the test."""
 
 import atexit
+import contextlib
 import functools
 import json
 import os
 import pathlib
+import re
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
@@ -24,6 +29,55 @@ COARSE = ["--set", "grains.radius_mm=12"]
 
 def run(*arguments, **options):
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
+
+
+def size_of(file):
+    """Of a file that comes and goes; 0 while it is not there."""
+    try:
+        return file.stat().st_size
+    except FileNotFoundError:
+        return 0
+
+
+def used_s(process):
+    """Processor seconds of a running process: others use this machine, too."""
+    ticks = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()[11:13]
+    return sum(map(float, ticks)) / os.sysconf("SC_CLK_TCK")
+
+
+def used_by_ended_s():
+    """Processor seconds of all processes that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def told_to_end(process, name=signal.SIGINT):
+    """Output and errors of a process from this signal to its end, and the processor seconds until then."""
+    if process.poll() is not None:
+        return *process.communicate(), 0.0
+    before_s = used_by_ended_s() + used_s(process)
+    process.send_signal(name)
+    output = process.communicate(timeout=30)
+    return *output, used_by_ended_s() - before_s
+
+
+def wait_until_it_listens(process, name):
+    """Until a process has a handler of the signal, which would have killed it before, or has ended."""
+    while process.poll() is None:
+        caught = re.search(r"^SigCgt:\s*(\w+)$", pathlib.Path(f"/proc/{process.pid}/status").read_text(), re.M)[1]
+        if int(caught, 16) >> (name - 1) & 1:
+            return
+        time.sleep(0.002)
+
+
+def shown_on(terminal):
+    """What came to a terminal whose other end is closed here, until no process has it; closes this end, too."""
+    shown = b""
+    with contextlib.suppress(OSError):  # the end of a terminal
+        while part := os.read(terminal, 65536):
+            shown += part
+    os.close(terminal)
+    return shown.decode()
 
 
 @functools.cache

@@ -13,7 +13,7 @@ import sys
 import time
 import unittest
 
-from desk import PROGRAM, APPARATUS, Desk, run
+from desk import PROGRAM, APPARATUS, Desk, run, wait_until_it_listens
 
 
 class Checkpoint(Desk):
@@ -28,21 +28,20 @@ class Checkpoint(Desk):
         return ["simulate", self.lab, *self.settings, "--json", *options]
 
     def stopped(self, after_s, *options):
-        """A run that is asked to stop after so many seconds."""
+        """A run that is asked to stop so many seconds after it began."""
         command = [PROGRAM, *map(str, self.simulate("--checkpoint", self.file, *options))]
         with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            wait_until_it_listens(process, signal.SIGTERM)
             time.sleep(after_s)
             process.send_signal(signal.SIGTERM)
             out, err = process.communicate(timeout=60)
         return subprocess.CompletedProcess(command, process.returncode, out, err)
 
     def stopped_midway(self):
-        """One that was stopped half-way, by the clock of a whole run beside it."""
-        wall_s = json.loads(run(*self.simulate()).stdout)["run"]["wall_s"]
-        for _ in range(20):
-            result = self.stopped(0.5 * wall_s + 0.1)
-            if result.returncode == 1:
-                return result
+        """One that was stopped half-way, by the clock of a whole run beside it, or sooner if that was a slow one."""
+        after_s = 0.5 * json.loads(run(*self.simulate()).stdout)["run"]["wall_s"]
+        while (result := self.stopped(after_s)).returncode == 0 and after_s > 0.001:
+            after_s *= 0.7
         return result
 
     def stopped_until_it_ends(self, after_s):
@@ -50,9 +49,6 @@ class Checkpoint(Desk):
         shutil.rmtree(self.out, ignore_errors=True)
         for sessions in range(200):
             result = self.stopped(after_s, "--out", self.out)
-            while result.returncode == -signal.SIGTERM:  # it had not begun to listen
-                after_s += 0.05
-                result = self.stopped(after_s, "--out", self.out)
             if result.returncode == 0:
                 return sessions, result
             self.fails(result, 1, "the same command continues from " + str(self.file))
@@ -73,7 +69,7 @@ class Checkpoint(Desk):
         whole, wall_s = self.answer(result), json.loads(result.stdout)["run"]["wall_s"]
         # A machine that is less busy than it was may come to the end before it was stopped twice.
         for share in (0.3, 0.1, 0.03):
-            sessions, result = self.stopped_until_it_ends(share * wall_s + 0.2)
+            sessions, result = self.stopped_until_it_ends(share * wall_s)
             if sessions > 1:
                 break
         self.assertGreater(sessions, 1)

@@ -6,6 +6,7 @@ usage: test_confirm.py PROGRAM SOURCE_DIR [unittest options]
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -146,7 +147,7 @@ class Confirm(Desk):
     def test_a_card_that_became_another_keeps_the_runs(self):
         command = ["confirm", self.card, "--program", self.engine("slow"), "--runs", self.runs, "--packings", "2"]
         with subprocess.Popen([PROGRAM, *map(str, command)], stderr=subprocess.PIPE, text=True) as process:
-            time.sleep(1)
+            self.assertTrue(process.stderr.readline())  # it has read the card
             card = json.loads(self.card.read_text())
             card["title"] = "another"
             self.card.write_text(json.dumps(card))
@@ -185,8 +186,9 @@ class Confirm(Desk):
         before = self.card.read_bytes()
         driver = subprocess.Popen([PROGRAM, "confirm", self.card, "--program", self.engine("hangs"), "--runs", self.runs],
                                   stderr=subprocess.PIPE, text=True)
-        said = [driver.stderr.readline() for _ in range(2)]  # the packing, and a sign of life
-        self.assertRegex(said[-1], r"s gone")
+        self.addCleanup(driver.kill)
+        said = next(line for line in driver.stderr if not re.match(r"fill\.|packing ", line))  # a sign of life of the engine
+        self.assertRegex(said, r"^LAMMPS, \d+ s gone")
         driver.send_signal(signal.SIGINT)
         said = driver.communicate(timeout=60)[1]
         self.assertEqual(driver.returncode, 1)
@@ -196,9 +198,13 @@ class Confirm(Desk):
     def test_a_card_is_the_old_or_the_new_one_whenever_a_confirmation_is_killed(self):
         before = self.card.read_bytes()
         words = [PROGRAM, "confirm", self.card, "--program", self.engine(), "--runs", self.runs, "--packings", "2", "--quiet"]
-        start = time.monotonic()
-        subprocess.run(words, capture_output=True, check=True)
-        duration = time.monotonic() - start
+
+        def taken_s():
+            start = time.monotonic()
+            subprocess.run(words, capture_output=True, check=True)
+            return time.monotonic() - start
+
+        duration = min(taken_s() for _ in range(3))  # the first one runs the engine, and a machine may stall in one
         replaced = 0
         for kill in range(12):
             self.card.write_bytes(before)

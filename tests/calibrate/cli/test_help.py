@@ -13,7 +13,7 @@ import sys
 import termios
 import unittest
 
-from desk import CARD, PROGRAM, Desk, run
+from desk import CARD, PROGRAM, Desk, run, shown_on
 
 
 def verbs():
@@ -68,8 +68,7 @@ class Help(Desk):
         arguments = ["simulate", CARD, "--set", "parameters.friction=7", "--seed", "1"]
         subprocess.run([PROGRAM, *map(str, arguments)], stderr=theirs, env={**os.environ, "TERM": "xterm"}, timeout=60)
         os.close(theirs)
-        shown = os.read(ours, 65536).decode().replace("\r", "")
-        os.close(ours)
+        shown = shown_on(ours).replace("\r", "")
         plain = run(*arguments).stderr
         self.assertEqual(shown.split(), plain.split())
         self.assertIn("1 error\n", plain)

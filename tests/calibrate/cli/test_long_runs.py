@@ -5,7 +5,6 @@ usage: test_long_runs.py PROGRAM SOURCE_DIR [unittest options]
 
 import json
 import os
-import pathlib
 import re
 import select
 import signal
@@ -14,7 +13,7 @@ import sys
 import time
 import unittest
 
-from desk import APPARATUS, CARD, LAB, PROGRAM, SOURCE, STUDY, Desk, coarse_card, run
+from desk import APPARATUS, CARD, LAB, PROGRAM, SOURCE, STUDY, Desk, coarse_card, run, used_s
 
 
 def many_packings(folder):
@@ -26,12 +25,6 @@ def many_packings(folder):
         baseline["readings"] = {name: (50 * column)[:50] for name, column in baseline["readings"].items()}
     (folder / "fifty.json").write_text(json.dumps(card))
     return folder / "fifty.json"
-
-
-def used_s(process):
-    """Processor seconds of a running process: others use this machine, too."""
-    ticks = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()[11:13]
-    return sum(map(float, ticks)) / os.sysconf("SC_CLK_TCK")
 
 
 class Progress(Desk):
@@ -58,12 +51,13 @@ class Progress(Desk):
         return lines, longest_s
 
     def fine_card(self):
-        """The shipped card with grains so small that its mould takes minutes to fill."""
+        """The shipped card with grains so small that its mould takes a while to fill, and so few that this stops at once."""
         card = self.folder / "fine.json"
-        self.assertEqual(run("rescale", CARD, "--radius", "2", "--packings", "0", "--out", card).returncode, 0)
+        self.assertEqual(run("rescale", CARD, "--radius", "2.6", "--packings", "0", "--out", card).returncode, 0)
         return card
 
     def test_no_verb_runs_longer_than_five_seconds_without_a_line(self):
+        cases = sorted((SOURCE / "tests/cases").glob("*.json"))
         for words, pattern in (
                 (["simulate", APPARATUS, "--set", "grains.radius_mm=3"], r"\d"),
                 (["simulate", SOURCE / "data/studies/wheat-repose.json"], r"\d"),
@@ -73,9 +67,9 @@ class Progress(Desk):
                 (["rescale", CARD, "--radius", 8, "--packings", 40, "--threads", 1, "--out", self.folder / "card.json"],
                  r"^\d+ of 80 simulations, \d+ s gone"),
                 (["export", self.fine_card(), "--to", "csv", "--unconfirmed", "--out", self.folder / "csv"], r"^fill\.\w+ .* gone"),
-                (["confirm", CARD, "--radius", "2", "--program", "/bin/true", "--out", self.folder / "new.json"],
+                (["confirm", CARD, "--radius", "2.6", "--program", "/bin/true", "--out", self.folder / "new.json"],
                  r"^fill\.\w+ .* gone"),
-                (["verify"], r"^\d+ of \d+ points, \d+ s gone.*left$")):
+                (["verify", *10 * cases], r"^\d+ of \d+ points, \d+ s gone.*left$")):
             with self.subTest(words[0]):
                 lines, longest_s = self.said_by(*words, pattern=pattern)
                 self.assertTrue([line for line in lines if re.search(pattern, line)], lines)
@@ -105,13 +99,18 @@ class Progress(Desk):
 
     def test_what_is_quiet_or_short_says_nothing(self):
         self.assertEqual(run("verify", "--quiet").stderr, "")
-        self.assertEqual(run("verify", "free-fall").stderr, "")
+        for _ in range(5):
+            start = time.monotonic()
+            said = run("verify", "free-fall").stderr
+            if time.monotonic() - start < 2:  # else it was not short, as on a machine that stalls
+                break
+        self.assertEqual(said, "")
 
 
 class Limits(Desk):
     def test_more_than_a_day_is_refused_with_the_estimate_unless_it_is_forced(self):
         start = time.monotonic()
-        tiny = ["--set", "grains.radius_mm=0.6", "--time-step", "1e-6"]
+        tiny = ["--set", "grains.radius_mm=1", "--time-step", "1e-7"]  # so small that they take a gigabyte, and no more
         said = self.fails_with_estimate(run("simulate", APPARATUS, *tiny, "--out", self.out))
         self.assertIn("grains", said)
         self.fails_with_estimate(run("simulate", APPARATUS, "--set", "grains.radius_mm=1", "--time-step", "1e-8"))
@@ -120,7 +119,7 @@ class Limits(Desk):
         lab["grains"] = {"distribution": "mono", "radius_mm": 3}
         (self.folder / "lab.json").write_text(json.dumps(lab))
         self.fails_with_estimate(run("calibrate", study, "--out", self.out), "--wall-budget")
-        self.fails_with_estimate(run("rescale", CARD, "--radius", "0.5", "--packings", "100", "--out", self.folder / "c"))
+        self.fails_with_estimate(run("rescale", CARD, "--radius", "1", "--packings", "100", "--threads", "1", "--out", self.folder / "c"))
         self.assertLess(time.monotonic() - start, 60)
         self.assertEqual(sorted(os.listdir(self.folder)), ["lab.json", "study.json"])
         # What is asked for goes on, and is stopped here.

@@ -269,8 +269,8 @@ class New(Desk):
     def test_the_target_has_its_own_law(self):
         epa, bridge = ("epa", "none", "adhesion_ratio"), ("hertz", "polynomial", "strength_pa")
         laws = {("lammps",): bridge, ("lammps", "--law", "epa"): epa, ("liggghts", "--law", "epa"): epa,
-                ("liggghts",): ("sjkr", "none", "cohesion_energy_density_pa"), ("yade",): bridge, ("edem", "--law", "epa"): epa,
-                ("edem",): ("jkr", "none", "adhesion_pa")}
+                ("liggghts", "--law", "sjkr"): ("sjkr", "none", "cohesion_energy_density_pa"), ("yade",): bridge,
+                ("edem", "--law", "epa"): epa, ("edem",): ("jkr", "none", "adhesion_pa")}
         for target, (normal, attraction, strength) in laws.items():
             with self.subTest(target):
                 _, study, said = self.files(*ABRAMS, "--for", *target, "--force")
@@ -310,7 +310,13 @@ class New(Desk):
         self.assertEqual(timed, "hertz")
         self.assertIn("only a bridge has a viscosity", why)
         self.assertEqual(normal_of("--height", "90", "--spread", "510", "--law", "epa")[0], "epa")
-        self.assertEqual(normal_of("--height", "90", "--spread", "510", "--for", "edem")[0], "jkr")
+        self.assertEqual(normal_of("--height", "90", "--spread", "400", "--for", "edem")[0], "jkr")
+        self.assertEqual(normal_of("--height", "90", "--spread", "510", "--for", "liggghts")[0], "sjkr")  # 1.06 of a cone's width
+        self.assertEqual(normal_of("--height", "60", "--spread", "510", "--for", "liggghts")[0], "epa")  # 0.87
+        self.assertEqual(normal_of("--height", "90", "--for", "liggghts")[0], "sjkr")
+        ordinary, why = normal_of("--height", "90", "--spread", "400", "--for", "liggghts")
+        self.assertEqual(ordinary, "epa")
+        self.assertIn("more heights and spreads", why)
         for program, law in (("liggghts", "epa"), ("edem", "epa"), ("yade", "hertz")):  # Yade's decks have no law of this kind
             self.assertEqual(normal_of("--slump", "100", "--spread", "270", "--for", program)[0], law)
         self.fails(run("new", self.folder / "other", *ABRAMS, "--for", "yade", "--law", "epa"), 2, "yade does not run", "one of bridge")

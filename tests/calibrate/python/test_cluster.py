@@ -49,12 +49,12 @@ class Cluster(Desk):
     @unittest.skipUnless(importlib.util.find_spec("distributed"), "there is no Dask")
     def test_workers_of_dask_that_are_killed_cost_their_simulations_only(self):
         from dask.distributed import LocalCluster
-        killed = []
+        killed, store = [], self.folder / "killed" / "evaluations.sqlite"
         with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
             def kill_now_and_then(ended):
-                while len(killed) < 3 and not ended.wait(1):
+                while len(killed) < 3 and not ended.wait(1 if killed else 0.01):
                     worker = cluster.workers[len(killed) % 2]
-                    if worker.pid:
+                    if worker.pid and store.exists():
                         os.kill(worker.pid, signal.SIGKILL)
                         killed.append(worker.pid)
             ended = threading.Event()

@@ -1,8 +1,8 @@
 """The search with a user-defined simulator. usage: test_search.py PROGRAM SOURCE_DIR [unittest options]"""
 
 import concurrent.futures as futures
+import functools
 import math
-import pathlib
 import os
 
 import numpy as np
@@ -22,9 +22,9 @@ def no_number_when_weak(candidate):
     return {"step1.height_mm": math.nan} if candidate["strength_pa"] < WEAK_PA else height(candidate)
 
 
-def dies_once(candidate):
-    """Kills its process the first time that it is asked for this candidate."""
-    mark = pathlib.Path(os.environ["PASTEFIT_TEST_MARKS"]) / str(candidate["_id"])
+def dies_once(marks, candidate):
+    """Kills its process the first time that it is asked for this candidate; leaves a mark in the folder."""
+    mark = marks / str(candidate["_id"])
     if candidate["_id"] == 1 and not mark.exists():
         mark.touch()
         os._exit(1)
@@ -191,9 +191,8 @@ class Search(Desk):
         self.assertIn("toy 1", str(fault))
 
     def test_a_worker_that_dies_is_asked_again(self):
-        os.environ["PASTEFIT_TEST_MARKS"] = str(self.folder)
         with futures.ProcessPoolExecutor(2) as pool:
-            result = self.search().run(dies_once, executor=pool)
+            result = self.search().run(functools.partial(dies_once, self.folder), executor=pool)
         self.assertEqual(result.card, self.search().run(height).card)
 
     def test_a_run_that_kills_its_worker_three_times_is_a_failure_with_its_name(self):

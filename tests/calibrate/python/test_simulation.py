@@ -85,15 +85,15 @@ class Simulation(Desk):
 
         thread = threading.Thread(target=count)
         thread.start()
-        pf.simulate(coarse_study())
+        pf.simulate(coarse_lab(radius_mm=8))
         ended.set()
         thread.join()
         self.assertGreater(counted[0], 20)
 
     def test_ctrl_c_ends_a_long_simulation_at_once(self):
         code = ("import pastefit as pf, sys\n"
-                "print('begins', flush=True)\n"
                 "try:\n"
+                "    print('begins', flush=True)\n"
                 f"    pf.simulate({coarse_lab(radius_mm=3)!r})\n"
                 "except KeyboardInterrupt:\n"
                 "    print('interrupted')\n")

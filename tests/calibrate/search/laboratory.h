@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <thread>
 
 #include "calibrate/study/parameters.h"
@@ -63,6 +64,16 @@ struct Laboratory {
     return std::move(opened).value();
   }
 };
+
+/// Waits for a condition; false if that takes too long.
+inline bool comes_true(const std::function<bool()>& condition) {
+  const auto start = std::chrono::steady_clock::now();
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() - start > std::chrono::seconds(20)) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
 
 inline UnitPoint at(double strength, double friction) {
   return Eigen::Vector2d(strength, friction);
