@@ -118,10 +118,11 @@ test("a calibration gives a card that the program simulates with the same bits, 
   const deck = ok(call("export", { card: result.card, target: "lammps" }));
   const names = deck.files.map((file) => file.name);
   assert.ok(names.includes("in.slump") && names.includes("style/core/laws/contact.h"), names.join(" "));
-  const exported = run("export", path.join(at, "card.json"), "--to", "lammps", "--out", path.join(at, "deck"));
+  const exported = runInFourLanes("export", path.join(at, "card.json"), "--to", "lammps", "--out", path.join(at, "deck"));
   assert.strictEqual(exported.status, 0, exported.stderr);
-  for (const { name, text } of deck.files)
-    assert.strictEqual(text, fs.readFileSync(path.join(at, "deck", name), "utf8"), name);
+  const ofAnyBuild = (text) => text.replace(/engine [0-9a-f]{16}/g, "engine");
+  for (const { name, text } of deck.files.filter((file) => file.name !== "NOTES.txt"))  // they name the card's folder
+    assert.strictEqual(ofAnyBuild(text), ofAnyBuild(fs.readFileSync(path.join(at, "deck", name), "utf8")), name);
 });
 
 test("a calibration that is stopped reports the best so far", async () => {
