@@ -161,7 +161,8 @@ class Pages(unittest.TestCase):
     def test_pages_are_short(self):
         most = ({page: MOST_WORDS_OF_MANUAL for page in PAGES if page.startswith(MANUAL)} |
                 {page: MOST_WORDS_OF_RESULT for page in PAGES if page.startswith(RECORD)} | MOST_WORDS)
-        words = {page: sum(word != "|" for word in PAGES[page].split()) for page in most}  # without the rules of tables
+        # Without the rules of tables, but for the main README.
+        words = {page: sum(word != "|" or page in MOST_WORDS for word in PAGES[page].split()) for page in most}
         self.assertEqual({page: count for page, count in words.items() if count > most[page]}, {})
         self.assertLessEqual(sum(count for page, count in words.items() if page.startswith(RECORD)), MOST_WORDS_OF_RECORD)
 
