@@ -22,6 +22,7 @@ Command add_doctor(CLI::App& verb);
 Command add_export(CLI::App& verb);
 Command add_help(CLI::App& verb);
 Command add_infer(CLI::App& verb);
+Command add_kpi(CLI::App& verb);
 Command add_new(CLI::App& verb);
 Command add_plan(CLI::App& verb);
 Command add_predict(CLI::App& verb);

@@ -18,14 +18,15 @@ namespace fs = std::filesystem;
 namespace {
 
 struct ExportOptions {
-  std::string card, out, target, test;
+  std::string card, out, target, test, application;
   std::optional<std::uint64_t> packing;
   bool force = false, unconfirmed = false, materials = false;
 };
 
 Result<std::vector<ExportFile>> files_of(const Card& card, const Exporter& exporter, const ExportOptions& options) {
   auto written =
-      export_card(card, exporter, {options.card, options.test, options.packing, options.unconfirmed, shown_run()});
+      export_card(card, exporter,
+                  {options.card, options.test, options.packing, options.unconfirmed, shown_run(), options.application});
   if (!written.ok()) return written.faults();
   return std::move(written).value().files;
 }
@@ -94,6 +95,9 @@ Command add_export(CLI::App& verb) {
       ->type_name("NAME");
   verb.add_option("--packing", options->packing, "seed of the random packing; default: that of the test")
       ->check(whole_number());
+  verb.add_option("--application", options->application,
+                  "machine in which to simulate the material, in place of the test: chute, hopper, mixer, or a file of your own")
+      ->type_name("FILE");
   verb.add_flag("--unconfirmed", options->unconfirmed, "export an unconfirmed card, marked in every file");
   verb.add_flag("--materials", options->materials,
                 "every material that fits the readings, each in a folder of its own; CARD in the folder of its "

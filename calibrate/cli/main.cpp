@@ -89,6 +89,8 @@ int run(int argc, char** argv) {
       {kLook, "report", "write the page of a calibration again, for a browser", add_report},
       {kLook, "predict", "predict another test with the materials that fit a calibration", add_predict},
       {kUse, "export", "write the test of a material card for another DEM program", add_export},
+      {kUse, "kpi", "print flow, residue, forces and depth of an exported application, for all materials that fit",
+       add_kpi},
       {kUse, "read", "compare the heap of an exported deck with the card", add_read},
       {kUse, "confirm", "simulate the test of a material card in LAMMPS and add the result to the card", add_confirm},
       {kUse, "rescale", "convert a material card to another grain size and measure the bias", add_rescale},

@@ -30,7 +30,7 @@ std::string rolling_in_edem(const ContactModel& contact) {
 /// `surface_energy`: of two grains.
 std::string walls_in_edem(const ExportScene& scene, double surface_energy) {
   std::string out;
-  for (const auto& [name, wall] : walls_of(scene.test))
+  for (const auto& [name, wall] : scene.walls())
     out += format(
         "   %s: shear modulus %.6g MPa, Poisson's ratio %.6g, restitution %.6g, static friction %.6g,\n"
         "   rolling friction %.6g, surface energy %.6g J/m2\n",
@@ -60,7 +60,7 @@ std::string eepa_instructions(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
   const double energy = eepa_surface_energy(scene), pull_off = cohesion_n(contact, scene.mean_pair());
   std::string wall_numbers;
-  for (const auto& [name, wall] : walls_of(scene.test))
+  for (const auto& [name, wall] : scene.walls())
     wall_numbers += "   " + name + ": " + eepa_numbers(contact, energy, pull_off, wall.cohesion_factor) + ".\n";
   return filled_in("exports/texts/edem_eepa.txt", {{"laws", laws_in_words(scene)},
                                                    {"grains", grains_in_edem(contact)},

@@ -109,7 +109,7 @@ constexpr double kSpringOverlapShare = 1.0 / 9;
 /// Values for the grains and each wall from the pair constants.
 std::string of_pairs(const ExportScene& scene, const auto& of_pair) {
   std::vector<double> values{of_pair(grain_pair(scene.contact(), scene.radius_m()))};
-  for (const auto& [name, wall] : walls_of(scene.test))
+  for (const auto& [name, wall] : scene.walls())
     values.push_back(of_pair(wall_pair(scene.contact(), wall, scene.radius_m())));
   return pairs_of(values);
 }

@@ -14,7 +14,12 @@
 
 namespace pastefit {
 
-std::vector<ExportWall> walls_of(const Test& test) {
+std::vector<ExportWall> ExportScene::walls() const {
+  std::vector<ExportWall> out;
+  if (application) {
+    for (const MachinePart& part : application->parts) out.push_back({part.name, part.contact});
+    return out;
+  }
   return std::visit(
       [](const auto& one) -> std::vector<ExportWall> {
         if constexpr (requires { one.mould_wall; }) return {{"mould", one.mould_wall}, {"table", one.table_wall}};
@@ -23,6 +28,23 @@ std::vector<ExportWall> walls_of(const Test& test) {
       },
       test);
 }
+
+namespace {
+
+/// Puts the machine of a file in place of the test. Its surfaces are like the table unless the file says otherwise.
+/// Errors: every fault of the file; it does not suit the grains.
+Faults put_into_application(ExportScene& scene, const std::string& file) {
+  const auto walls = scene.walls();
+  auto read = read_application(file, walls.empty() ? WallContact{} : walls.back().contact);
+  if (!read.ok()) return read.faults();
+  const double largest = std::max(std::ranges::max(scene.sizes.radii_m), scene.grains().largest_m);
+  if (Faults faults = unsuitable_grains(read.value(), largest, scene.grain_density_kg_m3); !faults.empty())
+    return in_file(std::move(faults), file);
+  scene.application = std::move(read).value();
+  return {};
+}
+
+}  // namespace
 
 std::string grain_density_in_words(const ExportScene& scene) {
   std::string own = format("%.9g kg/m^3", scene.grain_density_kg_m3);
@@ -35,7 +57,7 @@ std::span<const Exporter> exporters() {
       Exporter{"lammps", "deck for LAMMPS, and the engine's laws as a style for it: slump test, or two grains",
                export_lammps},
       Exporter{"liggghts", "deck for LIGGGHTS, with its nearest law: slump test (step 1), or two grains",
-               export_liggghts},
+               export_liggghts, true},
       Exporter{"yade", "Python module and scripts for Yade: slump test (step 1), or two grains", export_yade},
       Exporter{"mercurydpm", "parameters, force table and instructions for MercuryDPM", export_mercurydpm},
       Exporter{"csv", "parameters, force table and grains as CSV files", export_csv},
@@ -165,7 +187,7 @@ std::string comparison_text(const ExportRequest& request, const Card& card, cons
 /// Effect of a substitute law on the heap, and how to avoid it.
 std::string bias_text(const Export& written) {
   if (written.own_law.empty()) return {};
-  std::string out = "\nThe law differs from the card's, so expect another heap.\n";
+  std::string out = "\nThe law differs from the card's, so expect another result.\n";
   if (!written.heap.empty())
     out +=
         "To measure by how much: run the deck in three or more packings (pastefit export with --packing 1, 2, 3)\n"
@@ -209,12 +231,16 @@ void mark_unconfirmed(const Card& card, Export& written) {
 Result<Export> export_card(const Card& card, const Exporter& exporter, const ExportRequest& request) {
   Faults faults = unconfirmed_faults(card, request.unconfirmed);
   const auto test = test_to_export(card, request.test);
-  const auto scene = test.ok() ? export_scene(card, test.value(), request.packing, request.fill) : test.faults();
+  auto scene = test.ok() ? export_scene(card, test.value(), request.packing, request.fill) : test.faults();
+  if (!request.application.empty() && scene.ok())
+    if (Faults unsuited = put_into_application(scene.value(), request.application); !unsuited.empty()) scene = unsuited;
+  if (!request.application.empty() && !exporter.takes_applications)
+    faults.push_back({"--application", "has no deck for " + std::string(exporter.name), "--to liggghts"});
   auto answer = scene.ok() ? exporter.write(scene.value()) : scene.faults();
   if (!answer.ok()) faults.insert(faults.end(), answer.faults().begin(), answer.faults().end());
   if (!faults.empty()) return faults;
   Export written = std::move(answer).value();
-  if (const SlumpTest* slump = scene.value().slump(); slump && slump->tilt)
+  if (const SlumpTest* slump = scene.value().slump(); slump && slump->tilt && !scene.value().application)
     written.notes.push_back("The tilt of the table (tilt.slide_angle_deg) is not part of the deck.");
   written.files.push_back({kExportNotes, export_notes(written, exporter, card, test.value(), request)});
   mark_unconfirmed(card, written);

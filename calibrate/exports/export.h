@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibrate/card/card.h"
+#include "calibrate/exports/application.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/apparatus/slump/packing.h"
 #include "core/result.h"
@@ -42,20 +43,21 @@ struct ExportScene {
   Packing packing = {};            ///< filled mould of a slump test; empty for other tests
   SizeClasses sizes = {};          ///< of the packing's grains; the mean radius for other tests
   std::optional<double> card_density_kg_m3 = std::nullopt;  ///< of a grain; mean over the card's packings
+  std::optional<Application> application = std::nullopt;    ///< machine in which to simulate them, in place of the test
 
   const SlumpTest* slump() const { return std::get_if<SlumpTest>(&test); }
   const ContactModel& contact() const { return specimen_of(test).contact; }
   const GrainSizes& grains() const { return specimen_of(test).grains; }
   double radius_m() const { return grains().radius_m; }
+  /// Surfaces that the grains meet: parts of the machine, mould and table, or tools of granules. None in a drop test,
+  /// whose plate has the grains' material.
+  std::vector<ExportWall> walls() const;
   GrainPair mean_pair() const { return {radius_m(), radius_m(), radius_m()}; }
 };
 
 /// Density of the deck's grains and, if different, that of the card: "3105.1 kg/m^3 in this packing (3173 on the card,
 /// the mean of its packings)".
 std::string grain_density_in_words(const ExportScene& scene);
-
-/// Mould and table of a slump test, tools of granules; empty for a drop test, whose plate has the grains' material.
-std::vector<ExportWall> walls_of(const Test& test);
 
 struct ExportFile {
   std::string name;  ///< in the export folder; may contain subfolders separated by /
@@ -76,6 +78,7 @@ struct Exporter {
   std::string_view name;
   std::string_view meaning;  ///< output in one line
   Result<Export> (*write)(const ExportScene& scene);
+  bool takes_applications = false;
 };
 
 /// Title of an export: that of the card, with the test's name, if any.
@@ -116,6 +119,7 @@ struct ExportRequest {
   std::optional<std::uint64_t> packing;  ///< empty: the test's own
   bool unconfirmed = false;              ///< accept an unconfirmed card
   RunOptions fill = {};                  ///< options of the filling
+  std::string application = {};          ///< file of a machine; empty: the test
 };
 
 /// Exports a card, with notes as the last file: losses, how to run it, the expected heap and the command for

@@ -41,7 +41,7 @@ std::string full(double value) {
 
 /// Walls of the test. A slump test also has a ground, for grains that leave the table.
 std::vector<ExportWall> walls_in_deck(const ExportScene& scene) {
-  auto walls = walls_of(scene.test);
+  auto walls = scene.walls();
   if (!scene.slump()) return walls;
   walls.push_back({"ground", scene.slump()->table_wall});
   walls.back().contact.rolling_friction = 1;  // same as in pastefit

@@ -60,7 +60,7 @@ double energy_density(const ContactModel& card, const WallContact& wall, double 
 std::string properties(const ExportScene& scene, const Written& written) {
   const ContactModel& contact = written.contact;
   const SoulieFit* const fit = written.bridge();
-  const auto walls = walls_of(scene.test);
+  const auto& walls = scene.walls();
   std::string out = "# types: 1 grains";
   for (std::size_t i = 0; i < walls.size(); ++i) out += format(", %zu ", i + 2) + walls[i].name;
   const auto property = [&](int number, const std::string& name, const std::string& value) {
@@ -102,7 +102,7 @@ std::string properties(const ExportScene& scene, const Written& written) {
 
 /// material.inc: properties, pair style and wall model, for a script with types for the grains and each wall.
 std::string liggghts_material(const ExportScene& scene, const Written& written, const Models& models) {
-  const auto walls = walls_of(scene.test);
+  const auto& walls = scene.walls();
   std::string fixes;
   for (std::size_t i = 0; i < walls.size(); ++i)
     fixes += "#   fix " + walls[i].name + " all wall/gran ${wall_model} mesh n_meshes ... meshes ..." +
@@ -129,7 +129,7 @@ std::vector<std::string> liggghts_losses(const ExportScene& scene, const Written
   const SoulieFit* const fit = deck_law.bridge();
   if (deck_law.edinburgh) {
     std::vector<std::string> notes = edinburgh_losses(scene, *deck_law.edinburgh);
-    if (scene.slump() && scene.slump()->drop) notes.push_back(kNoDrop);
+    if (scene.slump() && scene.slump()->drop && !scene.application) notes.push_back(kNoDrop);
     return notes;
   }
   const GrainPair pair = scene.mean_pair();
@@ -161,7 +161,7 @@ std::vector<std::string> liggghts_losses(const ExportScene& scene, const Written
           "Between grains of other than the mean size the bridge scales as Soulie's, not with the square of "
           "the size.");
   }
-  for (const auto& [name, wall] : walls_of(scene.test))
+  for (const auto& [name, wall] : scene.walls())
     if (wall.cohesion_factor > 0 && written.normal != NormalLaw::sjkr)
       notes.push_back(format("The attraction of grains to the %s (%.3g of that between grains) is lost.", name.c_str(),
                              wall.cohesion_factor));
@@ -169,7 +169,7 @@ std::vector<std::string> liggghts_losses(const ExportScene& scene, const Written
     notes.push_back(
         "The rolling spring is two thirds of the card's (secant for tangent stiffness); the largest moment "
         "is the same.");
-  if (scene.slump() && scene.slump()->drop) notes.push_back(kNoDrop);
+  if (scene.slump() && scene.slump()->drop && !scene.application) notes.push_back(kNoDrop);
   return notes;
 }
 
@@ -196,8 +196,9 @@ Faults beyond_limits(const ExportScene& scene) {
                         "calibrate with " + remedy + ", or export to another target"});
   };
   check("test.contact.restitution", scene.contact().restitution, "\"restitution\" 0.06 or more");
-  for (const auto& [name, wall] : walls_of(scene.test))
-    check("test." + name + "_wall.restitution", wall.restitution, "a wall of restitution 0.06 or more");
+  for (const auto& [name, wall] : scene.walls())
+    check((scene.application ? "parts." + name : "test." + name + "_wall") + ".restitution", wall.restitution,
+          "a wall of restitution 0.06 or more");
   return faults;
 }
 
@@ -239,17 +240,20 @@ Result<Export> export_liggghts(const ExportScene& scene) {
   const Models models = models_of(written.contact, written.bridge());
   Export out;
   out.notes = liggghts_losses(scene, written);
-  if (scene.slump())
+  if (scene.application)
+    out.files = liggghts_application(scene, written, models, out.notes);
+  else if (scene.slump())
     out.files = {{"in.slump", liggghts_slump(scene, written, models, out.notes)},
                  {"grains.data", grains_data(scene, {.types = 3, .mould_heights = 2.5})},
                  {"mould.stl", mould_stl(scene.slump()->mould)}};
-  out.files.push_back({"in.two_grains", liggghts_two_grains(scene, written, out.notes)});
+  if (!scene.application) out.files.push_back({"in.two_grains", liggghts_two_grains(scene, written, out.notes)});
   out.files.push_back({"material.inc", liggghts_material(scene, written, models)});
   if (written.fit) out.files.push_back(bridge_curves(scene, *written.fit));
   if (written.contact.normal != card.normal) out.files.push_back(sticking_curves(scene, written.contact, "liggghts"));
   out.own_law = own_law(card, written);
-  out.instructions = "liggghts -in DECK, which is in.slump or in.two_grains\n";
-  if (scene.slump()) out.heap = "heap.dump";
+  out.instructions = scene.application ? "liggghts -in in.application\npastefit kpi .\n"
+                                       : "liggghts -in DECK, which is in.slump or in.two_grains\n";
+  if (scene.slump() && !scene.application) out.heap = "heap.dump";
   return out;
 }
 

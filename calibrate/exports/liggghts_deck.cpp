@@ -12,22 +12,6 @@ namespace pastefit {
 
 namespace {
 
-std::string liggghts_begin(const ExportScene& scene, const std::string& what, const std::vector<std::string>& notes) {
-  std::string out = deck_comment(scene.title) + "# " + what + "; written by " + program_identity() + "\n";
-  out += "# For LIGGGHTS-PUBLIC 3.8.0. Numbers are SI; \"units lj\" means \"as they are\" and, unlike \"units si\",\n";
-  out += "# takes grains softer than 5 MPa.\n";
-  for (const auto& note : notes) out += deck_comment("- " + note);
-  return out + R"(
-units        lj
-atom_style   granular
-)" + atom_modify(scene.contact()) +
-         R"(
-boundary     f f f
-newton       off
-communicate  single vel yes
-)";
-}
-
 std::string slump_walls(const Models& models) {
   return "fix          table all wall/gran ${wall_model} primitive type 3 zplane 0.0" + models.wall_end() +
          "\nfix          mould all wall/gran ${wall_model} mesh n_meshes 1 meshes cone" + models.wall_end() + "\n";
@@ -58,6 +42,22 @@ std::vector<Leg> liggghts_legs(const ExportScene& scene, const Written& written)
 }
 
 }  // namespace
+
+std::string liggghts_begin(const ExportScene& scene, const std::string& what, const std::vector<std::string>& notes) {
+  std::string out = deck_comment(scene.title) + "# " + what + "; written by " + program_identity() + "\n";
+  out += "# For LIGGGHTS-PUBLIC 3.8.0. Numbers are SI; \"units lj\" means \"as they are\" and, unlike \"units si\",\n";
+  out += "# takes grains softer than 5 MPa.\n";
+  for (const auto& note : notes) out += deck_comment("- " + note);
+  return out + R"(
+units        lj
+atom_style   granular
+)" + atom_modify(scene.contact()) +
+         R"(
+boundary     f f f
+newton       off
+communicate  single vel yes
+)";
+}
 
 std::string atom_modify(const ContactModel& contact) {
   return std::string("atom_modify map array") + (yields(contact.normal) ? " sort 0 0" : "");
@@ -103,7 +103,7 @@ std::string liggghts_two_grains(const ExportScene& scene, const Written& written
                                  scene.slump() ? std::vector<std::string>{} : notes)},
        {"near", format("%.6g", 4 * radius)},
        {"far", format("%.6g", 8 * radius)},
-       {"types", std::to_string(walls_of(scene.test).size() + 1)},
+       {"types", std::to_string(scene.walls().size() + 1)},
        {"first", format("%.17g", legs[0].from_m)},
        {"diameter", format("%.17g", 2 * radius)},
        {"density", format("%.17g", scene.grain_density_kg_m3)},

@@ -40,6 +40,9 @@ struct Written {
 /// contact then starts anew.
 std::string atom_modify(const ContactModel& contact);
 
+/// First lines of a deck: title, what it simulates, notes as comments, and settings of the program.
+std::string liggghts_begin(const ExportScene& scene, const std::string& what, const std::vector<std::string>& notes);
+
 /// Slump test: relax in the mould, lift, rest. Notes become comments.
 std::string liggghts_slump(const ExportScene& scene, const Written& written, const Models& models,
                            const std::vector<std::string>& notes);
@@ -48,6 +51,10 @@ std::string liggghts_slump(const ExportScene& scene, const Written& written, con
 /// DISTANCE FORCE". Contains the notes if there is no other deck.
 std::string liggghts_two_grains(const ExportScene& scene, const Written& written,
                                 const std::vector<std::string>& notes);
+
+/// The scene's application: the deck, its surfaces and its feed. Requirement: the scene has one.
+std::vector<ExportFile> liggghts_application(const ExportScene& scene, const Written& written, const Models& models,
+                                             const std::vector<std::string>& notes);
 
 /// Lateral surface of the mould.
 std::string mould_stl(const Mould& mould);

@@ -101,7 +101,7 @@ std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
                              {"mould_top_radius_m", slump->mould.top_radius_m, "apparatus"},
                              {"mould_height_m", slump->mould.height_m, "apparatus"},
                              {"lift_velocity_m_s", slump->lift_velocity_m_s, "of the mould"}});
-  for (const ExportWall& wall : walls_of(scene.test)) add_wall(rows, wall.name, wall.contact);
+  for (const ExportWall& wall : scene.walls()) add_wall(rows, wall.name, wall.contact);
   return rows;
 }
 

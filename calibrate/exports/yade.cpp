@@ -24,7 +24,7 @@ std::string module_of(const ExportScene& scene, const ContactModel& contact) {
   const PairConstants constants = grain_pair(contact, radius);
   const bool rolls = contact.rolling != RollingModel::none && contact.rolling_friction > 0;
   const double lever = rolling_spring_lever(contact.rolling, contact.rolling_friction) * pair.effective_radius_m();
-  const auto walls = walls_of(scene.test);
+  const auto& walls = scene.walls();
 
   std::string names, materials = "(" + exact(contact.youngs_modulus_pa) + ", " + exact(contact.poissons_ratio) + ", " +
                                  exact(scene.grain_density_kg_m3) + ", " + exact(contact.friction) + "),\n";
@@ -85,7 +85,7 @@ Result<Export> export_yade(const ExportScene& scene) {
                   kAllAttractions};
   if (card.normal == NormalLaw::jkr) known.attraction = {BridgeShape::none};  // its DMT excludes a second attraction
   Faults faults = unknown_laws(card, known);
-  for (const auto& [name, wall] : walls_of(scene.test))
+  for (const auto& [name, wall] : scene.walls())
     if (wall.cohesion_factor > 0)
       faults.push_back({"test." + name + "_wall.cohesion_factor",
                         "is not 0, but the module attracts grains to grains only",

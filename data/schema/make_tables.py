@@ -11,7 +11,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 AS_MEASURED = "by the names of `measurements`"  # in the description of an object: its keys are those of laboratory files
-NAMES = ("lab", "study", "apparatus", "card", "case", "laws")
+NAMES = ("lab", "study", "apparatus", "application", "card", "case", "laws")
 
 
 def number_of(value):

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "calibrate/card/card.h"
+#include "calibrate/exports/application.h"
 #include "calibrate/laboratory/measurement.h"
 #include "calibrate/laboratory/test.h"
 #include "tests/calibrate/folder.h"
@@ -32,11 +33,10 @@ std::string in_lines(const nlohmann::ordered_json& part, std::size_t indent = 0)
 
 // PASTEFIT_WRITE_SCHEMAS=1 test_calibrate "the schemas*" writes them anew, data/schema/make_tables.py then the tables.
 TEST_CASE("the schemas of data/schema are those of the descriptions that the readers use") {
-  const std::pair<const char*, nlohmann::ordered_json> schemas[]{{"apparatus", apparatus_schema()},
-                                                                 {"card", card_schema()},
-                                                                 {"lab", lab_schema()},
-                                                                 {"laws", laws_schema()},
-                                                                 {"study", study_schema()}};
+  const std::pair<const char*, nlohmann::ordered_json> schemas[]{
+      {"apparatus", apparatus_schema()}, {"application", application_schema()},
+      {"card", card_schema()},           {"lab", lab_schema()},
+      {"laws", laws_schema()},           {"study", study_schema()}};
   for (const auto& [name, schema] : schemas) {
     const std::string file = std::string(PASTEFIT_SOURCE_DIR "/data/schema/") + name + ".schema.json";
     const std::string text = in_lines(schema) + "\n";

@@ -14,7 +14,7 @@ import jsonschema
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import schemas
 
-FOLDERS = {"apparatus": "apparatus", "lab": "lab", "study": "studies", "card": "cards", "case": "../tests/cases"}
+FOLDERS = {"apparatus": "apparatus", "application": "applications", "lab": "lab", "study": "studies", "card": "cards", "case": "../tests/cases"}
 
 
 def validator(data, kind):
@@ -43,6 +43,13 @@ SPOILED = {
         (["apparatus", "mould", "height_m"], 0.2),
         (["apparatus", "preset"], "abrams"),
         (["material"], None),
+        (["format"], "pastefit-lab-1"),
+    ],
+    "application": [
+        (["parts"], None),
+        (["feed", "mass_kg"], 0),
+        (["feed", "velocity_m_s"], [0, 0]),
+        (["feed", "centre_m"], [0, 0, 1]),
         (["format"], "pastefit-lab-1"),
     ],
     "lab": [
