@@ -9,7 +9,7 @@
 #include "calibrate/base/refusal.h"
 #include "calibrate/base/statistics.h"
 #include "calibrate/base/text.h"
-#include "calibrate/evaluate/reading_scoring.h"
+#include "calibrate/evaluate/study_scoring.h"
 #include "calibrate/python/asked_search.h"
 #include "calibrate/python/module.h"
 #include "calibrate/search/strategies.h"
@@ -92,18 +92,6 @@ Faults clashing_names(const CustomProblem& problem, std::span<const std::string>
   }
   return faults;
 }
-
-/// The error of a failed candidate is the measured value, or ten standard deviations if that is more.
-class ProblemScoring : public ReadingScoring {
- public:
-  using ReadingScoring::ReadingScoring;
-  int simulations_each() const override { return 1; }
-
- protected:
-  double largest_error(const StudyReading& reading) const override {
-    return std::max(std::abs(reading.measurement.value), 10 * reading.measurement.standard_deviation);
-  }
-};
 
 /// True if it has a coordinate for each parameter and, unless it failed, a number for each reading.
 bool is_answer(const CustomProblem& problem, const StoredEvaluation& kept) {
@@ -191,7 +179,7 @@ class ProblemAnswers : public Answers {
 
  private:
   const CustomProblem problem_;
-  const ProblemScoring scoring_;
+  const ReadingScoring scoring_;
 };
 
 nlohmann::ordered_json evaluations_of(const CustomProblem& problem, const Store& store) {
