@@ -124,7 +124,7 @@ int prior_count(const Study& study) {
 /// Changes since the evaluations were made, and the number of those still valid.
 std::string changes_in(const Study& study, const Store& store) {
   if (store.changes().empty()) return "";
-  return "Changed since the last run: " + changed_places(store) + ". " +
+  return "Changed since the last run: " + listed(store.changes()) + ". " +
          std::to_string(earlier_of(study, store).size()) +
          " stored candidates lie within the present bounds; they do not count towards the budget.\n";
 }

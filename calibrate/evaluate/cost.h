@@ -5,10 +5,6 @@
 
 namespace pastefit {
 
-/// Peak memory of a simulation of the test [bytes]: 1 kB for each grain (a settled box of 100,000 to 1,000,000 grains
-/// takes 750 to 1000 bytes for each, see tests/bench/speed/README.md).
-double memory_needed_bytes(const Test& test);
-
 /// Errors if `at_once` simulations of the test exceed the available memory; empty if they fit. 0: one on each
 /// processor. Requirement: `validate(test)` is empty.
 Faults validate_memory(const Test& test, int at_once);

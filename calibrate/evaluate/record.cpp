@@ -143,29 +143,29 @@ std::vector<Readings> known_runs(const Study& study, std::size_t test, const Uni
   return runs;
 }
 
-std::size_t holding(const Study& study, const Store& store) {
-  const auto all = store.all();
-  return static_cast<std::size_t>(std::ranges::count_if(all, [&](const StoredEvaluation& one) {
+namespace {
+
+/// True if an evaluation is of one of the study's tests, for any candidate.
+bool holds_any(const Store& store, const Study& study) {
+  return std::ranges::any_of(store.all(), [&](const StoredEvaluation& one) {
     for (std::size_t test = 0; test < study.tests.size(); ++test) {
       const std::string key = key_of(study, test, one.values, one.packing, store.identity().program);
       const auto cutoff = cutoff_of(study, test);
       if (key == one.key || (cutoff && key_of_ended(key, *cutoff) == one.key)) return true;
     }
     return false;
-  }));
+  });
 }
 
-std::string changed_places(const Store& store) {
-  return listed(store.changes());
-}
+}  // namespace
 
 Faults strangers_in(const Study& study, const Store& store, const std::string& file) {
-  if (store.size() == 0 || holding(study, store) > 0) return {};
+  if (store.size() == 0 || holds_any(store, study)) return {};
   // A search that was stopped early may have used coarse grains only.
-  if (study.search.coarse_first && holding(with_coarse_grains(study), store) > 0) return {};
+  if (study.search.coarse_first && holds_any(store, with_coarse_grains(study))) return {};
   return {{file,
            "none of its " + std::to_string(store.size()) +
-               " evaluations is of a test of this study; changed: " + changed_places(store),
+               " evaluations is of a test of this study; changed: " + listed(store.changes()),
            "resume with the apparatus, the grains and the density as they were; or choose another output folder, or "
            "start anew with --force"}};
 }

@@ -39,12 +39,6 @@ StoredEvaluation merged(const Study& study, std::span<const std::size_t> tests,
 std::vector<Readings> known_runs(const Study& study, std::size_t test, const UnitPoint& point,
                                  std::span<const std::uint64_t> packings, const Store& store);
 
-/// Number of stored evaluations of the study's tests, for any candidate.
-std::size_t holding(const Study& study, const Store& store);
-
-/// `Store::changes`, separated by commas.
-std::string changed_places(const Store& store);
-
 /// Error if a store has evaluations, but none of the study's tests: resuming would mix two laboratory files in one
 /// folder. `file`: of the store.
 Faults strangers_in(const Study& study, const Store& store, const std::string& file);
