@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <future>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "calibrate/base/machine.h"
 #include "calibrate/base/statistics.h"
 #include "calibrate/base/text.h"
-#include "calibrate/check/runs.h"
+#include "calibrate/base/worker_pool.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/verify/force_curve.h"
@@ -125,13 +127,6 @@ SameBits compare_bits(const std::vector<Baseline::Run>& before, const std::vecto
   return SameBits::same;
 }
 
-/// Result for all tests together.
-SameBits all_of(const std::vector<SameBits>& bits) {
-  for (const auto bad : {SameBits::other, SameBits::not_comparable})
-    if (std::ranges::count(bits, bad) > 0) return bad;
-  return SameBits::same;
-}
-
 /// Surface of this name in a test of the card; empty if there is none.
 std::optional<WallContact> surface_of(const Card& card, std::string_view name) {
   for (const CardTest& of_card : card.tests) {
@@ -164,6 +159,40 @@ void judge(CardCheck& out, const CheckOptions& options) {
 
 }  // namespace
 
+std::vector<Outcome> outcomes_of(const Test& test, const std::vector<std::uint64_t>& packings,
+                                 const CheckEngine& engine, int threads) {
+  std::vector<Outcome> outcomes(packings.size());
+  WorkerPool pool(threads > 0 ? threads : processors());
+  std::vector<std::shared_future<void>> done;
+  for (std::size_t i = 0; i < packings.size(); ++i)
+    done.push_back(pool.submit([&, i] {
+      Test one = test;
+      specimen_of(one).packing_seed = packings[i];
+      RunOptions options;
+      options.packing = engine.prepare(one, {});
+      outcomes[i] = engine.run(one, options);
+    }));
+  for (const auto& one : done) one.get();  // rethrows exceptions of the engine
+  return outcomes;
+}
+
+Fault failure_in(std::uint64_t packing, const Failure& failure, const std::string& heading) {
+  return {heading + "packing " + std::to_string(packing),
+          "failed (" + std::string(name_of(failure.reason)) + " in " + failure.phase + ")", failure.message};
+}
+
+Result<std::vector<Baseline::Run>> baseline_runs(const Test& test, const std::string& heading,
+                                                 const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
+                                                 int threads) {
+  std::vector<Outcome> outcomes = outcomes_of(test, packings, engine, threads);
+  std::vector<Baseline::Run> runs;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (const auto& failure = outcomes[i].failure) return failure_in(packings[i], *failure, heading);
+    runs.push_back({packings[i], std::move(outcomes[i].readings)});
+  }
+  return runs;
+}
+
 CheckEngine CheckEngine::ours() {
   CheckEngine engine;
   engine.program = program_identity();
@@ -177,7 +206,7 @@ std::string_view name_of(CheckVerdict verdict) {
 }
 
 std::string_view name_of(SameBits bits) {
-  constexpr std::array<std::string_view, 3> kNames{"same", "other", "not comparable"};
+  constexpr std::array<std::string_view, 3> kNames{"same", "not comparable", "other"};
   return kNames[static_cast<std::size_t>(bits)];
 }
 
@@ -225,7 +254,7 @@ CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine
     promised += promises.size();
   }
   const double share = options.false_alarm / static_cast<double>(promised);
-  std::vector<SameBits> bits;
+  SameBits bits = SameBits::same;  // the worst of all tests
   for (const auto& test : card.tests) {
     const auto packings = asked(packings_of(card, test), options);
     const auto now = baseline_runs(test.test, heading_of(test), packings, engine, options.threads);
@@ -238,10 +267,10 @@ CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine
       out.readings.push_back({reading_name(test, name), before.mean, again.mean, band_of(before, again, share),
                               before.count, again.count});
     }
-    bits.push_back(compare_bits(test.baseline.runs, now.value()));
+    bits = std::max(bits, compare_bits(test.baseline.runs, now.value()));
   }
   for (auto& reading : check_law(card.material, engine)) out.readings.push_back(std::move(reading));
-  out.bits = all_of(bits);
+  out.bits = bits;
   judge(out, options);
   return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,18 @@ struct CheckEngine : Engine {
   static CheckEngine ours();
 };
 
+/// Simulates `test` in each packing, in parallel; outcomes in their order.
+std::vector<Outcome> outcomes_of(const Test& test, const std::vector<std::uint64_t>& packings,
+                                 const CheckEngine& engine, int threads);
+
+/// Message of a failure: "packing 7: failed (never_settled in step1)".
+Fault failure_in(std::uint64_t packing, const Failure& failure, const std::string& heading = "");
+
+/// Their readings. `heading`: prefix of faults (`heading_of`). Errors: a simulation fails.
+Result<std::vector<Baseline::Run>> baseline_runs(const Test& test, const std::string& heading,
+                                                 const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
+                                                 int threads);
+
 struct CheckOptions {
   bool quick = false;         ///< first two packings only
   double false_alarm = 1e-3;  ///< probability of rejecting an unchanged card, all readings together
@@ -32,8 +45,8 @@ std::string_view name_of(CheckVerdict verdict);  ///< "agrees", "disagrees", "no
 /// Whether the simulations repeat the card's bit for bit.
 enum class SameBits {
   same,            ///< identical
-  other,           ///< different
   not_comparable,  ///< the card has no single runs
+  other            ///< different
 };
 std::string_view name_of(SameBits bits);  ///< "same", "other", "not comparable"
 

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "calibrate/base/statistics.h"
-#include "calibrate/check/runs.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {

@@ -5,7 +5,6 @@
 
 #include "calibrate/base/statistics.h"
 #include "calibrate/card/standing.h"
-#include "calibrate/check/runs.h"
 
 namespace pastefit {
 
