@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -95,5 +97,21 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
 /// simulation fails.
 Result<Card> rebaselined(Card card, const std::string& why, int packings, const CheckOptions& options,
                          const CheckEngine& engine = CheckEngine::ours());
+
+/// Card file and its check. A card that cannot be read is `not_checked`, with the faults as reason.
+struct CheckedFile {
+  std::filesystem::path file;
+  CardCheck check;
+  double seconds = 0;  ///< wall time
+};
+
+/// Check as text: a table of readings, and the verdict with its reason.
+std::string text_of(const CheckedFile& checked);
+
+/// {"agree", "disagree", "not_checked", "cards": [...]}.
+nlohmann::ordered_json to_json(const std::vector<CheckedFile>& checked);
+
+/// JUnit's XML: one test case for each card; `disagrees` is a failure, `not_checked` an error.
+std::string junit_of(const std::vector<CheckedFile>& checked);
 
 }  // namespace pastefit

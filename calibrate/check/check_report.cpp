@@ -1,9 +1,8 @@
-#include "calibrate/check/check_report.h"
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/text.h"
+#include "calibrate/check/check.h"
 
 namespace pastefit {
 

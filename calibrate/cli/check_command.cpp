@@ -7,7 +7,6 @@
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/check/check.h"
-#include "calibrate/check/check_report.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"

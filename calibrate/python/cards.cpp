@@ -12,7 +12,6 @@
 #include "calibrate/base/statistics.h"
 #include "calibrate/card/card.h"
 #include "calibrate/check/check.h"
-#include "calibrate/check/check_report.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/python/module.h"
 #include "calibrate/report/summary.h"
