@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "calibrate/models/replicates.h"
-#include "calibrate/optimisers/nlopt.h"
+#include "calibrate/optimisers/problem.h"
 
 namespace pastefit {
 

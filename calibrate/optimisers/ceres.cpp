@@ -1,5 +1,3 @@
-#include "calibrate/optimisers/ceres.h"
-
 #include <ceres/ceres.h>
 
 #include <algorithm>
@@ -7,6 +5,8 @@
 #include <exception>
 #include <stdexcept>
 #include <vector>
+
+#include "calibrate/optimisers/problem.h"
 
 namespace pastefit {
 namespace {

@@ -1,11 +1,11 @@
-#include "calibrate/optimisers/nlopt.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <exception>
 #include <nlopt.hpp>
 #include <stdexcept>
+
+#include "calibrate/optimisers/problem.h"
 
 namespace pastefit {
 namespace {

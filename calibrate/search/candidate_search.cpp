@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/optimisers/nlopt.h"
+#include "calibrate/optimisers/problem.h"
 
 namespace pastefit {
 

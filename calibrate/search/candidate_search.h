@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/optimisers/ceres.h"
 #include "calibrate/optimisers/problem.h"
 #include "calibrate/search/proposals.h"
 #include "calibrate/search/strategy_state.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/optimisers/nlopt.h"
+#include "calibrate/optimisers/problem.h"
 #include "calibrate/search/low_fidelity.h"
 #include "core/random.h"
 

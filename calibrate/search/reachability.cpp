@@ -8,7 +8,7 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/models/gaussian_process.h"
-#include "calibrate/optimisers/nlopt.h"
+#include "calibrate/optimisers/problem.h"
 #include "calibrate/search/low_fidelity.h"
 
 namespace pastefit {

@@ -1,6 +1,6 @@
 #include "calibrate/search/recommendation.h"
 
-#include "calibrate/optimisers/nlopt.h"
+#include "calibrate/optimisers/problem.h"
 
 namespace pastefit {
 namespace {

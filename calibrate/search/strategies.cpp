@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "calibrate/optimisers/nlopt.h"
+#include "calibrate/optimisers/problem.h"
 
 namespace pastefit {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "calibrate/evaluate/response.h"
-#include "calibrate/optimisers/nlopt.h"
+#include "calibrate/optimisers/problem.h"
 
 namespace pastefit {
 namespace {

@@ -1,10 +1,9 @@
-#include "calibrate/optimisers/ceres.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
 #include "../search/synthetic.h"
+#include "calibrate/optimisers/problem.h"
 #include "tests/calibrate/optimisers/simulated_problem.h"
 
 using namespace pastefit;

@@ -1,9 +1,8 @@
-#include "calibrate/optimisers/nlopt.h"
-
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
 #include "../search/synthetic.h"
+#include "calibrate/optimisers/problem.h"
 #include "tests/calibrate/optimisers/simulated_problem.h"
 
 using namespace pastefit;
