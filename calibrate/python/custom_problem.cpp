@@ -12,7 +12,7 @@
 #include "calibrate/evaluate/study_scoring.h"
 #include "calibrate/python/asked_search.h"
 #include "calibrate/python/module.h"
-#include "calibrate/search/strategies.h"
+#include "calibrate/search/strategy_state.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/schemas.h"
 

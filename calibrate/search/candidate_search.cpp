@@ -154,7 +154,7 @@ bool ProposalPhase::propose() {
 
 std::unique_ptr<SearchPhase> candidate_phase(StrategyState& state, bool with_coarse) {
   state.history.enter("search");
-  switch (find_strategy(state.options.strategy)->kind) {
+  switch (*kind_of_strategy(state.options.strategy)) {
     case StrategyKind::surrogate:
       return std::make_unique<ProposalPhase>(state, with_coarse);
     case StrategyKind::ceres:

@@ -28,7 +28,8 @@ Search::Search(const Scoring& scoring, const SearchOptions& options, SearchStart
       start_(std::move(start)),
       progress_(std::move(progress)),
       queue_(scoring, start_.simulations),
-      with_coarse_(start_.with_coarse && find_strategy(options_.strategy)->kind == StrategyKind::surrogate),
+      by_surrogate_(kind_of_strategy(options_.strategy) == StrategyKind::surrogate),
+      with_coarse_(start_.with_coarse && by_surrogate_),
       state_(queue_, options_, start_, progress_),
       confirmation_(state_) {
   state_.history.hold_back(options_.confirmation_packings);
@@ -75,8 +76,7 @@ void Search::begin_confirmation(Stage stage, bool whatever_it_does, const UnitPo
 }
 
 void Search::begin_bracket() {
-  const bool by_surrogate = find_strategy(state_.options.strategy)->kind == StrategyKind::surrogate;
-  begin(Stage::bracket, !with_coarse_ && by_surrogate ? std::make_unique<BracketPhase>(state_) : nullptr);
+  begin(Stage::bracket, !with_coarse_ && by_surrogate_ ? std::make_unique<BracketPhase>(state_) : nullptr);
 }
 
 void Search::begin_reach() {
@@ -101,8 +101,7 @@ void Search::begin_candidates() {
 
 /// A minimiser's result already is a point of least misfit.
 void Search::begin_recommendation() {
-  const bool by_surrogate = find_strategy(state_.options.strategy)->kind == StrategyKind::surrogate;
-  const bool chooses = by_surrogate && StrategyState::goal_is_met(state_.ranking());
+  const bool chooses = by_surrogate_ && StrategyState::goal_is_met(state_.ranking());
   begin(Stage::recommendation, chooses ? std::make_unique<RecommendationPhase>(state_) : nullptr);
 }
 

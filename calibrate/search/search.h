@@ -116,7 +116,7 @@ class Search {
   const SearchStart start_;
   const std::function<void(const Progress&)> progress_;
   CandidateQueue queue_;
-  const bool with_coarse_;
+  const bool by_surrogate_, with_coarse_;
   StrategyState state_;  // refers to the members above
   ConfirmationPhase confirmation_;
   std::unique_ptr<SearchPhase> phase_;  // of the stage, except confirmations

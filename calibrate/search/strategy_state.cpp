@@ -1,6 +1,41 @@
 #include "calibrate/search/strategy_state.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "calibrate/base/text.h"
+#include "calibrate/optimisers/problem.h"
+
 namespace pastefit {
+
+std::optional<StrategyKind> kind_of_strategy(std::string_view name) {
+  if (name == "default") return StrategyKind::surrogate;
+  if (trust_region_of(name)) return StrategyKind::ceres;
+  if (std::ranges::count(nlopt_algorithm_names(), name) > 0) return StrategyKind::nlopt;
+  return std::nullopt;
+}
+
+Faults validate(const SearchOptions& options, int parameters, int tests) {
+  Faults faults;
+  const auto demand = [&](bool holds, const char* where, std::string what, std::string remedy) {
+    if (!holds) faults.push_back({where, std::move(what), std::move(remedy)});
+  };
+  demand(parameters >= 1, "parameters", "none is free", "free at least one");
+  demand(kind_of_strategy(options.strategy).has_value(), "search.strategy", "\"" + options.strategy + "\" is not known",
+         "default, levenberg_marquardt, dogleg, or one of " + listed(nlopt_algorithm_names()));
+  demand(options.screening >= 1, "search.screening", std::to_string(options.screening), "at least 1");
+  demand(options.packings >= 1, "search.packings", std::to_string(options.packings), "at least 1");
+  demand(options.max_pending >= 0, "search.max_pending", std::to_string(options.max_pending), "0 or more");
+  demand(options.confirmation_packings >= 1, "search.confirmation_packings",
+         std::to_string(options.confirmation_packings), "at least 1");
+  const double tolerance_mm = options.tolerance_mm.value_or(1);
+  demand(tolerance_mm > 0, "search.tolerance_mm", std::to_string(tolerance_mm), "above 0");
+  const int least = (options.screening + options.packings + options.confirmation_packings) * tests;
+  demand(options.budget_simulations >= least, "search.budget_simulations", std::to_string(options.budget_simulations),
+         "at least " + std::to_string(least) + ": screening, one candidate and its confirmation");
+  return faults;
+}
+
 namespace {
 
 constexpr double goal_share = 0.6;     // of the tolerances: within it a candidate is likely to be confirmed

@@ -1,15 +1,40 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibrate/search/candidate_ranking.h"
 #include "calibrate/search/evaluation_history.h"
-#include "calibrate/search/strategies.h"
+#include "calibrate/study/study.h"
 
 namespace pastefit {
+
+/// Method that proposes candidates.
+enum class StrategyKind {
+  surrogate,  ///< Gaussian processes with expected improvement: `proposals.h`
+  ceres,      ///< trust region on the residuals
+  nlopt       ///< NLopt algorithm on the misfit
+};
+
+/// Kind of the strategy of this name; none if there is no such strategy. A new kind also needs a function in
+/// `candidate_search.cpp`.
+std::optional<StrategyKind> kind_of_strategy(std::string_view name);
+
+/// Errors in the options for this number of parameters and fitted tests; empty if valid.
+Faults validate(const SearchOptions& options, int parameters, int tests = 1);
+
+/// Initial state of a search.
+struct SearchStart {
+  int simulations = 0;                       ///< total allowed, one for each fitted test of a candidate
+  bool with_coarse = false;                  ///< allows coarse candidates (`low_fidelity.h`)
+  std::vector<Response> earlier = {};        ///< known responses, each on one packing; not counted in the budget
+  std::vector<std::string> readings = {};    ///< names for the reason, one for each reading; may be empty
+  std::vector<std::string> parameters = {};  ///< names of the free parameters; may be empty
+};
 
 /// A search of seed s uses packings from 1000 s on, except a hundred from here, which the examination
 /// (`inference/examination.h`) uses.

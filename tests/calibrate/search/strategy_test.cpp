@@ -146,7 +146,9 @@ TEST_CASE("ending candidates early leaves the answer as good, and the best is al
 TEST_CASE("every algorithm by name goes the whole way within the budget", "[campaign]") {
   constexpr int seeds = 10;
   int all_confirmed = 0;
-  for (const auto& [name, kind] : strategies()) {
+  std::vector<std::string_view> strategies = nlopt_algorithm_names();
+  strategies.insert(strategies.end(), {"default", "levenberg_marquardt", "dogleg"});
+  for (const std::string_view name : strategies) {
     int confirmed = 0;
     CAPTURE(name);
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -162,7 +164,7 @@ TEST_CASE("every algorithm by name goes the whole way within the budget", "[camp
     CHECK(confirmed >= (name == "default" ? 9 : 3));
     all_confirmed += confirmed;
   }
-  CHECK(all_confirmed >= 0.65 * seeds * static_cast<double>(strategies().size()));
+  CHECK(all_confirmed >= 0.65 * seeds * static_cast<double>(strategies.size()));
 }
 
 TEST_CASE("the confirmation uses packings the search has not seen") {
