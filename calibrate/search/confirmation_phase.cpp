@@ -3,7 +3,25 @@
 #include <algorithm>
 #include <iterator>
 
+#include "calibrate/optimisers/problem.h"
+
 namespace pastefit {
+
+bool RecommendationPhase::advance() {
+  constexpr int rounds = 3;
+  const CandidateRanking ranking = state_.ranking();
+  if (ranking.best().size() == 0) return true;
+  if (simulated_ == rounds || !state_.may_go_on()) {
+    if (StrategyState::is_likely(ranking, ranking.most_plausible())) found_ = ranking.most_plausible();
+    return true;
+  }
+  ++simulated_;
+  const auto misfit = [&](const UnitPoint& at) { return ranking.surrogate().misfit_posterior(at).mean(); };
+  const UnitPoint point = least_point(misfit, ranking.best());
+  state_.history.evaluate({&point, 1}, state_.fresh_packings(1));
+  return false;
+}
+
 namespace {
 
 constexpr double hardly_likely = 0.1;          // probability of success below which a confirmation is broken off
@@ -18,7 +36,8 @@ void ConfirmationPhase::begin(bool whatever_it_does, const UnitPoint& asked) {
   state_.history.enter("confirmation");
   state_.history.hold_back(0);
   candidate_ = asked.size() > 0 ? asked : state_.ranking().best();
-  fresh_ = state_.fresh_packings(first_packings());
+  const int all = state_.options.confirmation_packings;
+  fresh_ = state_.fresh_packings(state_.options.max_pending > 0 ? all : (all + 3) / 4);
   whatever_it_does_ = whatever_it_does;
 }
 
@@ -66,7 +85,8 @@ std::pair<Verdict, std::size_t> ConfirmationPhase::look_at(const Response& confi
     return {verdict, 0};
   const bool by_share = verdict_on_readings(evidence) != Verdict::undecided;  // the readings are decided
   if (by_share && !whatever_it_does_ && asked >= worthwhile_confirmations * all) return {verdict, 0};
-  const std::size_t more = asked < all ? all - asked : further_packings();
+  const std::size_t further = state_.options.max_pending > 0 ? all : (all + 1) / 2;
+  const std::size_t more = asked < all ? all - asked : further;
   return {verdict, state_.affordable(more) ? more : 0};
 }
 
@@ -78,16 +98,6 @@ void ConfirmationPhase::conclude(const Response& confirmation, Verdict verdict) 
   if (last_) return;
   if (!confirmed_) state_.refuted.push_back(judged);
   state_.history.hold_back(state_.options.confirmation_packings);
-}
-
-int ConfirmationPhase::first_packings() const {
-  const int all = state_.options.confirmation_packings;
-  return state_.options.max_pending > 0 ? all : (all + 3) / 4;
-}
-
-std::size_t ConfirmationPhase::further_packings() const {
-  const int all = state_.options.confirmation_packings;
-  return static_cast<std::size_t>(state_.options.max_pending > 0 ? all : (all + 1) / 2);
 }
 
 void ConfirmationPhase::report(const Response& confirmation) {

@@ -10,6 +10,25 @@
 
 namespace pastefit {
 
+/// Chooses the candidate to confirm among all that are likely to meet the readings: the point of least expected misfit,
+/// priors included (the maximum a posteriori point; in Bayesian optimisation, the recommendation). Otherwise a search
+/// would report whichever acceptable material it met first, which differs from seed to seed. Each of three rounds
+/// simulates that point on a fresh packing and asks the surrogate again. Limit: the noise of the simulations shifts the
+/// point; their number bounds how well two seeds agree. Requirement: the best candidate is likely to be confirmed
+/// (`StrategyState::goal_is_met`).
+class RecommendationPhase : public SearchPhase {
+ public:
+  explicit RecommendationPhase(StrategyState& state) : state_(state) {}
+  bool advance() override;
+  /// The simulated point; none if it is less likely to be confirmed than a confirmation requires.
+  const UnitPoint& found() const { return found_; }
+
+ private:
+  StrategyState& state_;
+  int simulated_ = 0;
+  UnitPoint found_;
+};
+
 /// Simulates the best candidate on packings that the search has not used, and keeps the result to report.
 class ConfirmationPhase : public SearchPhase {
  public:
@@ -31,8 +50,6 @@ class ConfirmationPhase : public SearchPhase {
   const Response& confirmation() const { return confirmation_; }  ///< on the fresh packings
 
  private:
-  int first_packings() const;
-  std::size_t further_packings() const;
   /// Verdict on the fresh packings, and the number of further ones to simulate; 0: none.
   std::pair<Verdict, std::size_t> look_at(const Response& confirmation) const;
   void conclude(const Response& confirmation, Verdict verdict);

@@ -6,7 +6,6 @@
 
 #include "calibrate/search/candidate_search.h"
 #include "calibrate/search/low_fidelity.h"
-#include "calibrate/search/recommendation.h"
 #include "calibrate/search/screening.h"
 
 namespace pastefit {

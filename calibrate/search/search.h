@@ -39,7 +39,7 @@ namespace pastefit {
 ///   3. Refinement: Ceres on the residuals on the common packings, if no candidate's readings are likely to be
 ///      confirmed and the noise of these packings is below the allowed misfit.
 ///   4. Recommendation, by the default strategy: of the candidates that are likely to be confirmed, the one of least
-///      expected misfit, priors included (`recommendation.h`).
+///      expected misfit, priors included (`confirmation_phase.h`).
 ///   5. Confirmation of this candidate on fresh packings: a quarter first, and no more if success is then unlikely;
 ///      all at once with `max_pending`; up to eight times the study's number while undecided (`confirmation_phase.h`).
 ///      A candidate that is not confirmed is excluded, and the search continues from 2 with all results. Limit: a mean
