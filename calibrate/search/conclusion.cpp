@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "calibrate/base/text.h"
 #include "calibrate/judge/verdict.h"
@@ -7,19 +8,8 @@
 namespace pastefit {
 
 std::string_view name_of(CalibrationStatus status) {
-  switch (status) {
-    case CalibrationStatus::confirmed:
-      return "confirmed";
-    case CalibrationStatus::unconfirmed:
-      return "unconfirmed";
-    case CalibrationStatus::out_of_reach:
-      return "out_of_reach";
-    case CalibrationStatus::stopped:
-      return "stopped";
-    case CalibrationStatus::failed:
-      return "failed";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 5> names{"confirmed", "unconfirmed", "out_of_reach", "stopped", "failed"};
+  return names[static_cast<std::size_t>(status)];
 }
 
 namespace {
