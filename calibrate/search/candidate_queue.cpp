@@ -45,28 +45,15 @@ bool CandidateQueue::is_answered(std::span<const std::size_t> numbers) const {
 
 std::vector<Evaluation> CandidateQueue::answers(std::span<const std::size_t> numbers) {
   std::vector<Evaluation> answers;
-  for (const std::size_t number : numbers) answers.push_back(see(number));
+  for (const std::size_t number : numbers) {
+    Asked& asked = asked_[number];
+    if (!asked.answered) asked.answer = not_simulated(asked.candidate);
+    // The simulations count as spent when the answer is read first.
+    if (!std::exchange(asked.seen, asked.answered) && asked.answered && asked.candidate.fidelity == Fidelity::fine)
+      spent_ += asked.answer.simulations;
+    answers.push_back(asked.answer);
+  }
   return answers;
-}
-
-/// Counts the simulations as spent when the answer is read first.
-const Evaluation& CandidateQueue::see(std::size_t number) {
-  Asked& asked = asked_[number];
-  if (!asked.answered) asked.answer = not_simulated(asked.candidate);
-  if (!std::exchange(asked.seen, asked.answered) && asked.answered && asked.candidate.fidelity == Fidelity::fine)
-    spent_ += asked.answer.simulations;
-  return asked.answer;
-}
-
-void CandidateQueue::accept(const CandidateResult& result) {
-  if (result.candidate >= asked_.size()) throw std::logic_error("ingest: an answer to what was never suggested");
-  Asked& asked = asked_[result.candidate];
-  const Evaluation& answer = result.evaluation;
-  if (answer.point != asked.candidate.point || answer.packing != asked.candidate.packing)
-    throw std::logic_error("ingest: an answer of another point or packing than was suggested");
-  if (asked.answered) return;
-  asked.answer = answer;
-  asked.answered = true;
 }
 
 std::vector<Candidate> CandidateQueue::suggest(std::size_t count) {
@@ -77,7 +64,16 @@ std::vector<Candidate> CandidateQueue::suggest(std::size_t count) {
 }
 
 void CandidateQueue::ingest(std::span<const CandidateResult> results) {
-  for (const CandidateResult& result : results) accept(result);
+  for (const CandidateResult& result : results) {
+    if (result.candidate >= asked_.size()) throw std::logic_error("ingest: an answer to what was never suggested");
+    Asked& asked = asked_[result.candidate];
+    const Evaluation& answer = result.evaluation;
+    if (answer.point != asked.candidate.point || answer.packing != asked.candidate.packing)
+      throw std::logic_error("ingest: an answer of another point or packing than was suggested");
+    if (asked.answered) continue;
+    asked.answer = answer;
+    asked.answered = true;
+  }
 }
 
 }  // namespace pastefit

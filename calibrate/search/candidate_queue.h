@@ -72,8 +72,6 @@ class CandidateQueue {
   using Key = std::tuple<std::vector<double>, std::uint64_t, Fidelity, bool>;
 
   std::size_t ask(const UnitPoint& point, std::uint64_t packing, Fidelity fidelity, bool may_end_early);
-  const Evaluation& see(std::size_t number);
-  void accept(const CandidateResult& result);
 
   const Scoring& scoring_;
   const int simulations_;
