@@ -147,7 +147,7 @@ bool ProposalPhase::propose() {
   while (!enough && state_.may_go_on() && std::ssize(state_.history.under_way()) <= state_.options.max_pending) {
     if (!proposals_.look(*known_)) return false;
     if (!proposals_.found()) break;
-    state_.history.begin(*proposals_.found(), state_.fresh_packings(1));
+    state_.history.begin(*proposals_.found(), state_.fresh_packings(1).front());
   }
   return true;
 }

@@ -13,14 +13,11 @@ namespace pastefit {
 
 namespace {
 
-/// Removes responses that a stop has cut off: they count as failed but carry no information about the point.
-std::vector<Response> without_cut_off(std::vector<Response> responses, bool stopped) {
-  const auto cut_off = [](const Evaluation& one) {
+/// True if a stop may have cut off a response: it counts as failed but carries no information about the point.
+bool is_cut_off(const Response& response) {
+  return std::ranges::any_of(response.evaluations, [](const Evaluation& one) {
     return one.failure && one.failure->reason == FailureReason::stopped;
-  };
-  if (stopped)
-    std::erase_if(responses, [&](const Response& one) { return std::ranges::any_of(one.evaluations, cut_off); });
-  return responses;
+  });
 }
 
 /// Best of the responses that count; without point if none does.
@@ -42,32 +39,19 @@ EvaluationHistory::EvaluationHistory(CandidateQueue& queue, std::span<const Resp
 }
 
 int EvaluationHistory::budget_left() const {
-  int spent = at_start_ - queue_.budget_left();
-  for (const Asked& asked : under_way_) spent += static_cast<int>(asked.packings.size());
+  const int spent = at_start_ - queue_.budget_left() + static_cast<int>(under_way_.size());
   return std::max(0, budget_ - spent - held_back_);
 }
 
-void EvaluationHistory::begin(const UnitPoint& point, std::span<const std::uint64_t> packings) {
-  (void)queue_.ask({&point, 1}, packings, Fidelity::fine, true);
-  under_way_.push_back({point, {packings.begin(), packings.end()}});
+void EvaluationHistory::begin(const UnitPoint& point, std::uint64_t packing) {
+  (void)queue_.ask({&point, 1}, {&packing, 1}, Fidelity::fine, true);
+  under_way_.push_back({point, packing});
 }
 
 void EvaluationHistory::await_next() {
   const Asked asked = std::move(under_way_.front());
   under_way_.pop_front();
-  try_out({&asked.point, 1}, asked.packings);
-}
-
-void EvaluationHistory::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
-  await(points, packings, Fidelity::fine, false);
-}
-
-void EvaluationHistory::try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
-  await(points, packings, Fidelity::fine, true);
-}
-
-void EvaluationHistory::evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
-  await(points, packings, Fidelity::coarse, false);
+  try_out({&asked.point, 1}, {&asked.packing, 1});
 }
 
 void EvaluationHistory::await(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
@@ -82,7 +66,8 @@ void EvaluationHistory::take_answers() {
   std::vector<Response> responses = responses_to(awaited);
   if (awaited.fidelity == Fidelity::fine) {
     answers_ = std::move(responses);
-    keep(answers_, awaited.packings);
+    keep_singles(answers_, awaited.packings, singles_);
+    note(answers_);
   } else if (!stop_requested()) {
     keep_singles(responses, awaited.packings, coarse_singles_);
     report();
@@ -103,16 +88,12 @@ std::vector<Response> EvaluationHistory::responses_to(const Awaited& awaited) {
 void EvaluationHistory::keep_singles(std::span<const Response> responses, std::size_t packings,
                                      std::vector<Response>& singles) {
   for (std::size_t k = 0; k < packings; ++k)
-    for (const Response& response : responses)
-      for (Response& one : without_cut_off({scoring().response_of({response.evaluations[k]})}, stop_requested())) {
-        weigh(one, factors_);
-        keep_single(one, singles);
-      }
-}
-
-void EvaluationHistory::keep(std::span<const Response> responses, std::size_t packings) {
-  keep_singles(responses, packings, singles_);
-  note(without_cut_off({responses.begin(), responses.end()}, stop_requested()));
+    for (const Response& response : responses) {
+      Response one = scoring().response_of({response.evaluations[k]});
+      if (stop_requested() && is_cut_off(one)) continue;
+      weigh(one, factors_);
+      keep_single(one, singles);
+    }
 }
 
 Response EvaluationHistory::recall(const UnitPoint& point, std::span<const std::uint64_t> packings) {
@@ -128,8 +109,9 @@ Response EvaluationHistory::recall(const UnitPoint& point, std::span<const std::
 }
 
 void EvaluationHistory::note(std::span<const Response> answered) {
-  responses_.insert(responses_.end(), answered.begin(), answered.end());
   for (const Response& response : answered) {
+    if (stop_requested() && is_cut_off(response)) continue;
+    responses_.push_back(response);
     if (!is_whole(response) || response.packings.size() < best_packings_) continue;
     if (response.packings.size() > best_packings_ || response.error < best_error_) {
       best_error_ = response.error;
@@ -240,22 +222,27 @@ UnitPoint EvaluationHistory::best_point(std::span<const std::uint64_t> packings)
 }
 
 bool EvaluationHistory::any_feasible() const {
-  return std::any_of(singles_.begin(), singles_.end(), [](const auto& s) { return is_feasible(s); });
+  return std::ranges::any_of(singles_, [](const Response& one) { return is_feasible(one); });
 }
 
-std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const double> allowances) {
+std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const double> allowances,
+                            std::span<const Response> coarse) {
   const double infinity = std::numeric_limits<double>::infinity();
   std::vector<Reach> reach;
   for (int k = 0; k < std::ssize(allowances); ++k) {
     const double allowance = allowances[static_cast<std::size_t>(k)];
     Reach one{infinity, -infinity, true, true};
+    const auto heed = [&](const Response& response) {
+      one.all_above = one.all_above && response.residuals[k] > allowance;
+      one.all_below = one.all_below && response.residuals[k] < -allowance;
+    };
     for (const Response& single : singles) {
       if (!is_feasible(single) || !has_reading(single, k)) continue;
       one.lowest = std::min(one.lowest, single.readings[k]);
       one.highest = std::max(one.highest, single.readings[k]);
-      one.all_above = one.all_above && single.residuals[k] > allowance;
-      one.all_below = one.all_below && single.residuals[k] < -allowance;
+      heed(single);
     }
+    std::ranges::for_each(coarse, heed);
     if (one.lowest > one.highest) one = Reach{};
     reach.push_back(one);
   }

@@ -43,10 +43,16 @@ class EvaluationHistory {
 
   /// Requests all points on all these packings: completely, possibly stopped early (`try_out`), or with coarse grains.
   /// The answers are available when the phase is called again. Requirement: no request is open.
-  void evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
-  void try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
+  void evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+    await(points, packings, Fidelity::fine, false);
+  }
+  void try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+    await(points, packings, Fidelity::fine, true);
+  }
   /// The answers go to `coarse_singles`, weighted as those of fine grains.
-  void evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
+  void evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+    await(points, packings, Fidelity::coarse, false);
+  }
   bool is_waiting() const { return awaited_ && !queue_.is_answered(awaited_->numbers); }
   /// Takes the answers to the open request, if any. Requirement: not `is_waiting()`.
   void take_answers();
@@ -57,13 +63,13 @@ class EvaluationHistory {
   Response recall(const UnitPoint& point, std::span<const std::uint64_t> packings);
 
   /// Enqueues a point that may end early without waiting; its simulations count as spent from now on.
-  void begin(const UnitPoint& point, std::span<const std::uint64_t> packings);
+  void begin(const UnitPoint& point, std::uint64_t packing);
   /// Requests the earliest pending point, even if later ones have finished.
   void await_next();
-  /// Pending points, earliest first, with their packings.
+  /// Pending points, earliest first, with their packing.
   struct Asked {
     UnitPoint point;
-    std::vector<std::uint64_t> packings;
+    std::uint64_t packing = 0;
   };
   const std::deque<Asked>& under_way() const { return under_way_; }
 
@@ -95,7 +101,6 @@ class EvaluationHistory {
   void await(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings, Fidelity fidelity,
              bool may_end_early);
   std::vector<Response> responses_to(const Awaited& awaited);
-  void keep(std::span<const Response> responses, std::size_t packings);
   void note(std::span<const Response> answered);
   /// Best complete response on exactly these packings; without point if none.
   Response best_on(std::span<const std::uint64_t> packings) const;
@@ -126,7 +131,9 @@ class EvaluationHistory {
   std::vector<Response> coarse_singles_;
 };
 
-/// Range of each reading over the simulations.
-std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const double> allowances);
+/// Range of each reading over the simulations. `coarse`: corrected simulations with coarse grains, whose residuals
+/// count for `all_above` and `all_below`.
+std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const double> allowances,
+                            std::span<const Response> coarse = {});
 
 }  // namespace pastefit

@@ -87,7 +87,7 @@ void Proposals::fantasise_answers(Surrogate& model) const {
     for (Eigen::Index k = 0; k < deviates.size(); ++k)
       deviates[k] =
           random.normal(candidate * static_cast<std::uint64_t>(deviates.size()) + static_cast<std::uint64_t>(k));
-    (void)model.fantasise(asked.point, static_cast<int>(asked.packings.size()), deviates);
+    model.fantasise(asked.point, deviates);
     ++candidate;
   }
 }

@@ -74,10 +74,6 @@ void Search::begin_confirmation(Stage stage, bool whatever_it_does, const UnitPo
   advanced_ = &confirmation_;
 }
 
-void Search::begin_bracket() {
-  begin(Stage::bracket, !with_coarse_ && by_surrogate_ ? std::make_unique<BracketPhase>(state_) : nullptr);
-}
-
 void Search::begin_reach() {
   const EvaluationHistory& history = state_.history;
   if (history.singles().empty() || !history.any_feasible() || history.stop_requested()) return begin_candidates();
@@ -94,14 +90,9 @@ void Search::begin_nearest() {
 
 void Search::begin_candidates() {
   searched_ = true;
-  if (!any_evidence() || !state_.may_go_on()) return begin_end();
+  const auto feasible = [](const Response& one) { return is_feasible(one); };
+  if (std::ranges::none_of(state_.history.training_data(), feasible) || !state_.may_go_on()) return begin_end();
   begin(Stage::candidates, candidate_phase(state_, with_coarse_));
-}
-
-/// A minimiser's result already is a point of least misfit.
-void Search::begin_recommendation() {
-  const bool chooses = by_surrogate_ && StrategyState::goal_is_met(state_.ranking());
-  begin(Stage::recommendation, chooses ? std::make_unique<RecommendationPhase>(state_) : nullptr);
 }
 
 void Search::begin_end() {
@@ -118,7 +109,7 @@ void Search::go_on() {
       return begin(Stage::screening, known ? nullptr : std::make_unique<ScreeningPhase>(state_, Fidelity::fine));
     }
     case Stage::screening:
-      return begin_bracket();
+      return begin(Stage::bracket, !with_coarse_ && by_surrogate_ ? std::make_unique<BracketPhase>(state_) : nullptr);
     case Stage::bracket: {
       const auto found = phase_ ? static_cast<const BracketPhase&>(*phase_).found() : std::nullopt;
       return found ? begin_confirmation(Stage::bracket_confirmation, true, *found) : begin_reach();
@@ -139,8 +130,12 @@ void Search::go_on() {
     case Stage::candidates:
       if (state_.ranking().best().size() == 0) return begin_end();
       return begin(Stage::refinement, refinement_phase(state_));
-    case Stage::refinement:
-      return history.stop_requested() ? begin_end() : begin_recommendation();
+    case Stage::refinement: {
+      if (history.stop_requested()) return begin_end();
+      // A minimiser's result already is a point of least misfit.
+      const bool chooses = by_surrogate_ && StrategyState::goal_is_met(state_.ranking());
+      return begin(Stage::recommendation, chooses ? std::make_unique<RecommendationPhase>(state_) : nullptr);
+    }
     case Stage::recommendation: {
       const UnitPoint found = phase_ ? static_cast<const RecommendationPhase&>(*phase_).found() : UnitPoint{};
       return history.stop_requested() ? begin_end() : begin_confirmation(Stage::confirmation, false, found);
@@ -159,10 +154,6 @@ void Search::go_on_after_nearest() {
   return over ? begin_end() : begin_candidates();
 }
 
-bool Search::any_evidence() const {
-  return std::ranges::any_of(state_.history.training_data(), [](const Response& one) { return is_feasible(one); });
-}
-
 bool Search::claim_stands() {
   const auto against = [&](const Response& one) { return contradicts(one, *out_of_reach_); };
   const auto contradiction = std::ranges::find_if(state_.history.singles(), against);
@@ -178,22 +169,6 @@ bool Search::claim_stands() {
   return false;
 }
 
-std::vector<Reach> Search::reach() const {
-  std::vector<double> allowances;
-  for (std::size_t k = 0; std::ssize(allowances) < state_.scoring().readings(); ++k)
-    allowances.push_back(state_.scoring().allowance(k));
-  std::vector<Reach> out = reach_of(state_.history.singles(), allowances);
-  for (const Response& coarse : corrected(state_.history.coarse_singles(), state_.history.singles())) {
-    for (std::size_t k = 0; k < out.size(); ++k) {
-      Reach& one = out[k];
-      const double residual = coarse.residuals[static_cast<Eigen::Index>(k)];
-      one.all_above = one.all_above && residual > allowances[k];
-      one.all_below = one.all_below && residual < -allowances[k];
-    }
-  }
-  return out;
-}
-
 void Search::conclude() {
   result_.best = confirmation_.best();
   result_.search = confirmation_.search();
@@ -204,7 +179,11 @@ void Search::conclude() {
   result_.history = state_.history.responses();
   result_.simulations = state_.history.simulations();
   result_.coarse_simulations = static_cast<int>(state_.history.coarse_singles().size());
-  result_.reach = reach();
+  std::vector<double> allowances;
+  for (std::size_t k = 0; std::ssize(allowances) < state_.scoring().readings(); ++k)
+    allowances.push_back(state_.scoring().allowance(k));
+  result_.reach = reach_of(state_.history.singles(), allowances,
+                           corrected(state_.history.coarse_singles(), state_.history.singles()));
   std::optional<OutOfReach> out_of_reach;
   if (!confirmation_.confirmed() && !state_.history.stop_requested())
     out_of_reach = searched_ ? known_out_of_reach(state_.history, ReachOf::means) : out_of_reach_;

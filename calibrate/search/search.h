@@ -93,21 +93,16 @@ class Search {
   void advance();
   void begin(Stage stage, std::unique_ptr<SearchPhase> phase);
   void begin_confirmation(Stage stage, bool whatever_it_does, const UnitPoint& asked = {});
-  void begin_bracket();
   void begin_reach();
   void begin_nearest();
   /// Starts the next round of candidates; ends the search if it may not go on.
   void begin_candidates();
-  void begin_recommendation();
   void begin_end();
   /// Starts the next stage.
   void go_on();
   void go_on_after_nearest();
-  bool any_evidence() const;
   /// Tests again, with all simulations, whether a reading is out of reach; withdraws the claim if not.
   bool claim_stands();
-  /// Range of each reading, corrected coarse simulations included.
-  std::vector<Reach> reach() const;
   void conclude();
   /// Sets status and reason of the result (`conclusion.cpp`); its other fields are set. `out_of_reach`: as known now.
   void explain(const std::optional<OutOfReach>& out_of_reach);

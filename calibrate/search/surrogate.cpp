@@ -182,17 +182,13 @@ double Surrogate::MisfitPosterior::improvement(double bound) const {
                   bound * boost::math::gamma_p(shape, place) - uncertain_mean * boost::math::gamma_p(shape + 1, place));
 }
 
-Eigen::VectorXd Surrogate::fantasise(const UnitPoint& point, int packings, const Eigen::VectorXd& deviates) {
-  Eigen::VectorXd answer(residuals());
+void Surrogate::fantasise(const UnitPoint& point, const Eigen::VectorXd& deviates) {
   for (std::size_t k = 0; k < models_.size(); ++k) {
-    const auto place = static_cast<Eigen::Index>(k);
-    answer[place] = 0;
     if (!models_[k]) continue;
     const GaussianProcess::Prediction prediction = models_[k]->predict(point);
-    answer[place] = prediction.mean + deviates[place] * std::sqrt(prediction.variance);
-    models_[k]->fantasise(point, answer[place], packings);
+    const double deviate = deviates[static_cast<Eigen::Index>(k)];
+    models_[k]->fantasise(point, prediction.mean + deviate * std::sqrt(prediction.variance), 1);
   }
-  return answer;
 }
 
 double Surrogate::noise() const {

@@ -47,10 +47,9 @@ class Surrogate {
   /// packings, is within plus or minus its bound. A bound of 0 means no bound. Shape: one bound for each residual.
   std::vector<double> within(std::span<const Eigen::VectorXd> bounds, const UnitPoint& point) const;
 
-  /// Conditions on fantasised answers of `packings` packings at a point: mean residuals drawn from their predictive
-  /// distribution, without replicate scatter. `deviates`: standard normal, one for each residual. Returns the drawn
-  /// residuals.
-  Eigen::VectorXd fantasise(const UnitPoint& point, int packings, const Eigen::VectorXd& deviates);
+  /// Conditions on a fantasised answer at a point: mean residuals drawn from their predictive distribution, without
+  /// replicate scatter. `deviates`: standard normal, one for each residual.
+  void fantasise(const UnitPoint& point, const Eigen::VectorXd& deviates);
 
   /// Predicted share of rejected heaps, e.g. sheared off.
   double rejecting(const UnitPoint& point) const;

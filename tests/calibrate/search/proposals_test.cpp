@@ -90,7 +90,7 @@ TEST_CASE(
       if (!proposal) break;
       for (const EvaluationHistory::Asked& asked : history.under_way())
         REQUIRE((asked.point - *proposal).lpNorm<Eigen::Infinity>() >= same_point);
-      history.begin(*proposal, {common.data(), 1});
+      history.begin(*proposal, common.front());
     }
     REQUIRE(!history.under_way().empty());
     if (history.under_way().size() > 1) ++several;
@@ -144,13 +144,13 @@ TEST_CASE("what is under way is spent, and answered in the order of asking") {
   EvaluationHistory history = screened(answered, pending_options(1, 3));
   const int before = history.budget_left();
   const std::vector<UnitPoint> points = screening_points(5, 3, 9);
-  for (const UnitPoint& point : points) history.begin(point, common);
-  CHECK(history.budget_left() == before - 6);
+  for (const UnitPoint& point : points) history.begin(point, common.front());
+  CHECK(history.budget_left() == before - 3);
   for (const UnitPoint& point : points) {
     history.await_next();
     CHECK(answered.answers_of(history).front().point == point);
   }
-  CHECK(history.budget_left() == before - 6);
+  CHECK(history.budget_left() == before - 3);
   CHECK(history.under_way().empty());
 }
 
