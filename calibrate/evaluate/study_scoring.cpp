@@ -43,7 +43,7 @@ double ReadingScoring::largest_error(const StudyReading& reading) const {
 
 double ReadingScoring::certain_miss(const Response& response, std::size_t reading) const {
   const StudyReading& fitted = readings_[reading];
-  const double difference = response.readings[static_cast<Eigen::Index>(reading)] - fitted.measurement.value;
+  const double difference = response.readings[reading] - fitted.measurement.value;
   if (std::isnan(difference)) return 0;
   const auto bounded = [&](const Evaluation& one) { return one.censored && is_bound(fitted, one.readings[reading]); };
   return std::ranges::any_of(response.evaluations, bounded) ? std::min(difference, 0.0) : difference;
@@ -69,7 +69,7 @@ Response ReadingScoring::response_of(std::vector<Evaluation> evaluations) const 
   const auto judged = accepted(evaluations);
   for (const Evaluation* one : judged)
     for (Eigen::Index i = 0; i < count && !one->failure; ++i)
-      out.readings[i] += one->readings[static_cast<std::size_t>(i)] / static_cast<double>(judged.size());
+      out.readings[i] += one->readings[i] / static_cast<double>(judged.size());
   if (!evaluations.empty()) out.point = evaluations.front().point;
   out.evaluations = std::move(evaluations);
 
@@ -79,9 +79,8 @@ Response ReadingScoring::response_of(std::vector<Evaluation> evaluations) const 
     out.residuals[count + static_cast<Eigen::Index>(i)] = (out.point[coordinate] - prior.mean) / prior.deviation;
   }
   for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& [test, name, measurement, weight, tolerance] = readings_[static_cast<std::size_t>(i)];
-    if (out.failed)
-      out.readings[i] = measurement.value + failure_factor * largest_error(readings_[static_cast<std::size_t>(i)]);
+    const auto& [test, name, measurement, weight, tolerance] = readings_[i];
+    if (out.failed) out.readings[i] = measurement.value + failure_factor * largest_error(readings_[i]);
     double difference = out.readings[i] - measurement.value;
     if (out.censored && !out.failed) difference = certain_miss(out, static_cast<std::size_t>(i));
     out.residuals[i] = std::sqrt(weight) * difference / measurement.standard_deviation;

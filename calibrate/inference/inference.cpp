@@ -65,7 +65,7 @@ std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std:
                                           int count) {
   const TrainingData& evidence = model.training_data();
   const auto value = [&](const UnitPoint& point, std::size_t j) {
-    return value_between(evidence.parameters[j], point[static_cast<Eigen::Index>(j)]);
+    return value_between(evidence.parameters[j], point[j]);
   };
   const auto chosen_from = [&](const std::vector<UnitPoint>& candidates) {
     std::vector<UnitPoint> chosen = fitting(model, candidates, recommended);
@@ -123,7 +123,7 @@ std::vector<UnitPoint> open_ends(const TrainingData& evidence, const std::vector
 /// Extends the fitting range of each parameter to a material that fits.
 void widen_by(std::vector<ParameterInterval>& intervals, const TrainingData& evidence, const UnitPoint& point) {
   for (std::size_t j = 0; j < intervals.size(); ++j) {
-    const double value = value_between(evidence.parameters[j], point[static_cast<Eigen::Index>(j)]);
+    const double value = value_between(evidence.parameters[j], point[j]);
     intervals[j].fitting_lower = std::min(intervals[j].fitting_lower, value);
     intervals[j].fitting_upper = std::max(intervals[j].fitting_upper, value);
   }

@@ -90,9 +90,8 @@ double deviation_before(const Parameter& parameter) {
 }
 
 Eigen::VectorXd deviations_before(const TrainingData& evidence) {
-  Eigen::VectorXd out(static_cast<Eigen::Index>(evidence.parameters.size()));
-  for (std::size_t j = 0; j < evidence.parameters.size(); ++j)
-    out[static_cast<Eigen::Index>(j)] = deviation_before(evidence.parameters[j]);
+  Eigen::VectorXd out(evidence.parameters.size());
+  for (std::size_t j = 0; j < evidence.parameters.size(); ++j) out[j] = deviation_before(evidence.parameters[j]);
   return out;
 }
 
@@ -125,7 +124,7 @@ bool ParameterInterval::any_value_fits() const {
 
 ParameterInterval interval_of(const ResponseModel& model, const std::vector<UnitPoint>& sample, const Moments& moments,
                               const UnitPoint& recommended, Eigen::Index coordinate) {
-  const Parameter& parameter = model.training_data().parameters[static_cast<std::size_t>(coordinate)];
+  const Parameter& parameter = model.training_data().parameters[coordinate];
   std::vector<double> coordinates;
   for (const UnitPoint& member : sample) coordinates.push_back(member[coordinate]);
   const double own = recommended[coordinate];
@@ -157,13 +156,13 @@ constexpr double two_sided = 1.959964;    // standard deviations of 95 %
 
 /// Slope of each fitted reading in each coordinate. Shape: fitted readings x parameters.
 Eigen::MatrixXd jacobian_of(const ResponseModel& model, const std::vector<std::size_t>& fitted, const UnitPoint& at) {
-  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(fitted.size()), at.size());
+  Eigen::MatrixXd jacobian(fitted.size(), at.size());
   for (Eigen::Index j = 0; j < at.size(); ++j) {
     UnitPoint ahead = at, behind = at;
     ahead[j] = std::min(1.0, at[j] + difference_step);
     behind[j] = std::max(0.0, at[j] - difference_step);
     for (std::size_t k = 0; k < fitted.size(); ++k)
-      jacobian(static_cast<Eigen::Index>(k), j) =
+      jacobian(k, j) =
           (model.predict(fitted[k], ahead).mean - model.predict(fitted[k], behind).mean) / (ahead[j] - behind[j]);
   }
   return jacobian;
@@ -204,10 +203,9 @@ std::vector<Combination> combinations_of(const ResponseModel& model, const std::
       const Eigen::VectorXd part = svd.matrixU().col(i).cwiseAbs();
       std::vector<std::size_t> order(fitted.size());
       std::iota(order.begin(), order.end(), std::size_t{0});
-      std::ranges::stable_sort(order, std::ranges::greater{},
-                               [&](std::size_t k) { return part[static_cast<Eigen::Index>(k)]; });
+      std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t k) { return part[k]; });
       for (const std::size_t k : order)
-        if (part[static_cast<Eigen::Index>(k)] >= visible) one.readings.push_back(evidence.readings[fitted[k]].name);
+        if (part[k] >= visible) one.readings.push_back(evidence.readings[fitted[k]].name);
     }
     combinations.push_back(std::move(one));
   }
@@ -222,9 +220,9 @@ void heed_sample(Combination& combination, const TrainingData& evidence, const M
   const double sampled = std::sqrt(scaled.dot(moments.covariance * scaled));
   if (sampled <= combination.uncertainty && size > 1) return;
   combination.uncertainty = std::min(1.0, sampled);
-  combination.lead_width = width_of(evidence.parameters[combination.lead],
-                                    two_sided * before[static_cast<Eigen::Index>(combination.lead)] *
-                                        combination.uncertainty / combination.direction[combination.lead]);
+  combination.lead_width =
+      width_of(evidence.parameters[combination.lead], two_sided * before[combination.lead] * combination.uncertainty /
+                                                          combination.direction[combination.lead]);
 }
 
 }  // namespace pastefit

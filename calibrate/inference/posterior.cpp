@@ -186,11 +186,11 @@ MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const s
   gain.measurements = repeats;
   gain.deviation = evidence.measured ? evidence.deviation : typical_deviation;
   const auto count = static_cast<double>(sample.size());
-  Eigen::VectorXd means(static_cast<Eigen::Index>(sample.size()));
+  Eigen::VectorXd means(sample.size());
   double predictive_variance = 0;
   for (std::size_t i = 0; i < sample.size(); ++i) {
     const auto prediction = model.predict(reading, sample[i]);
-    means[static_cast<Eigen::Index>(i)] = prediction.mean;
+    means[i] = prediction.mean;
     predictive_variance += prediction.variance / count;
   }
   const Eigen::VectorXd deviations = means.array() - means.mean();
@@ -199,12 +199,12 @@ MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const s
   for (Eigen::Index j = 0; j < moments.mean.size(); ++j) {
     double covariance = 0;
     for (std::size_t i = 0; i < sample.size(); ++i)
-      covariance += deviations[static_cast<Eigen::Index>(i)] * (sample[i][j] - moments.mean[j]) / (count - 1);
+      covariance += deviations[i] * (sample[i][j] - moments.mean[j]) / (count - 1);
     const double own = std::max(moments.covariance(j, j), 1e-12);
     const double left = std::sqrt(std::max(0.0, 1 - covariance * covariance / (own * (variance + error))));
     if (left >= gain.narrowing) continue;
     gain.narrowing = left;
-    gain.parameter = model.training_data().parameters[static_cast<std::size_t>(j)].name;
+    gain.parameter = model.training_data().parameters[j].name;
   }
   return gain;
 }

@@ -21,7 +21,7 @@ double distance_from_priors(const TrainingData& evidence, const UnitPoint& point
   for (std::size_t j = 0; j < evidence.parameters.size(); ++j) {
     if (!evidence.parameters[j].prior) continue;
     const UnitPrior prior = unit_prior(evidence.parameters[j]);
-    squares += std::pow((point[static_cast<Eigen::Index>(j)] - prior.mean) / prior.deviation, 2);
+    squares += std::pow((point[j] - prior.mean) / prior.deviation, 2);
   }
   return squares;
 }
@@ -36,7 +36,7 @@ ResponseModel::ResponseModel(TrainingData evidence) : evidence_(std::move(eviden
     const ReadingTrainingData& reading = evidence_.readings[k];
     std::vector<ReadingModel::Answer> answers;
     for (std::size_t i = 0; i < sites.size(); ++i)
-      if (const double value = reading.simulated[static_cast<Eigen::Index>(i)]; !std::isnan(value))
+      if (const double value = reading.simulated[i]; !std::isnan(value))
         answers.push_back({sites[i], value, reading.bound(i)});
     models_.emplace_back(places, answers);
     if (reading.fitted()) fitted_.push_back(k);
@@ -50,8 +50,8 @@ ResponseModel::ResponseModel(TrainingData evidence) : evidence_(std::move(eviden
   if (evidence_.failed.empty()) return;
   std::vector<UnitPoint> all = evidence_.points;
   all.insert(all.end(), evidence_.failed.begin(), evidence_.failed.end());
-  Eigen::VectorXd share = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all.size()));
-  share.tail(static_cast<Eigen::Index>(evidence_.failed.size())).setOnes();
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(all.size());
+  share.tail(evidence_.failed.size()).setOnes();
   failures_.emplace(all, share);
 }
 
@@ -76,8 +76,8 @@ void ResponseModel::learn_correlation(const std::vector<std::size_t>& sites) {
       if (sites[i] != site) continue;
       Eigen::VectorXd heap(count);
       for (Eigen::Index k = 0; k < count; ++k) {
-        const ReadingTrainingData& reading = evidence_.readings[fitted_[static_cast<std::size_t>(k)]];
-        heap[k] = reading.bound(i) ? std::nan("") : reading.simulated[static_cast<Eigen::Index>(i)];
+        const ReadingTrainingData& reading = evidence_.readings[fitted_[k]];
+        heap[k] = reading.bound(i) ? std::nan("") : reading.simulated[i];
       }
       if (heap.array().isNaN().any()) continue;
       heaps.conservativeResize(Eigen::NoChange, heaps.cols() + 1);
@@ -86,7 +86,7 @@ void ResponseModel::learn_correlation(const std::vector<std::size_t>& sites) {
     if (heaps.cols() < 2) continue;
     const Eigen::VectorXd mean = heaps.rowwise().mean();
     for (Eigen::Index k = 0; k < count; ++k) {
-      const double noise = models_[fitted_[static_cast<std::size_t>(k)]].noise_at(mean[k]);
+      const double noise = models_[fitted_[k]].noise_at(mean[k]);
       heaps.row(k).array() -= mean[k];
       if (noise > 0) heaps.row(k) /= noise;
     }
@@ -96,7 +96,7 @@ void ResponseModel::learn_correlation(const std::vector<std::size_t>& sites) {
   correlation_ = Eigen::MatrixXd::Identity(count, count);
   for (Eigen::Index j = 0; j < count; ++j)
     for (Eigen::Index k = 0; k < count; ++k) {
-      const auto first = fitted_[static_cast<std::size_t>(j)], second = fitted_[static_cast<std::size_t>(k)];
+      const auto first = fitted_[j], second = fitted_[k];
       if (j == k || evidence_.readings[first].test != evidence_.readings[second].test) continue;
       const double size = std::sqrt(products(j, j) * products(k, k));
       correlation_(j, k) = size > 0 ? products(j, k) / size * freedom / (freedom + doubted_heaps) : 0;
@@ -108,15 +108,14 @@ void ResponseModel::find_shared() {
   for (std::size_t j = 0; j < fitted_.size(); ++j) {
     for (std::size_t k = 0; k < j; ++k) {
       std::vector<Shared>& shared = shared_[j].emplace_back();
-      const double correlation = correlation_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k));
+      const double correlation = correlation_(j, k);
       const auto& first = models_[fitted_[j]].rows();
       const auto& second = models_[fitted_[k]].rows();
       for (std::size_t a = 0; a < first.size(); ++a)
         for (std::size_t b = 0; b < second.size(); ++b) {
           if (first[a].site != second[b].site || first[a].is_bound || second[b].is_bound) continue;
           const double both = 1 / std::max(first[a].answers.weight, second[b].answers.weight);
-          shared.push_back({static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b),
-                            correlation * first[a].noise * second[b].noise * both});
+          shared.push_back({a, b, correlation * first[a].noise * second[b].noise * both});
         }
     }
   }
@@ -128,7 +127,7 @@ void ResponseModel::take_conditions() {
   for (const ConditionEffect& condition : evidence_.conditions) {
     Eigen::VectorXd moved = Eigen::VectorXd::Zero(count);
     for (Eigen::Index k = 0; k < count; ++k) {
-      const ReadingTrainingData& reading = evidence_.readings[fitted_[static_cast<std::size_t>(k)]];
+      const ReadingTrainingData& reading = evidence_.readings[fitted_[k]];
       for (const ConditionEffect::Reading& one : condition.readings)
         if (one.name == reading.name) moved[k] = (one.at_upper - one.at_lower) / std::sqrt(reading.weight);
     }
@@ -141,8 +140,7 @@ void ResponseModel::count_independent() {
   Eigen::MatrixXd all(count, 0);
   for (Eigen::Index i = 0; i < std::ssize(evidence_.points); ++i) {
     Eigen::VectorXd one(count);
-    for (Eigen::Index k = 0; k < count; ++k)
-      one[k] = evidence_.readings[fitted_[static_cast<std::size_t>(k)]].simulated[i];
+    for (Eigen::Index k = 0; k < count; ++k) one[k] = evidence_.readings[fitted_[k]].simulated[i];
     if (one.array().isNaN().any()) continue;
     all.conservativeResize(Eigen::NoChange, all.cols() + 1);
     all.rightCols(1) = one;
@@ -173,9 +171,7 @@ double ResponseModel::expected(std::size_t reading, const UnitPoint& point) cons
     Replicates answers;
     const Eigen::VectorXd& simulated = evidence_.readings.at(reading).simulated;
     for (std::size_t i = 0; i < evidence_.points.size(); ++i)
-      if (const double value = simulated[static_cast<Eigen::Index>(i)];
-          evidence_.points[i] == point && !std::isnan(value))
-        answers.add(value);
+      if (const double value = simulated[i]; evidence_.points[i] == point && !std::isnan(value)) answers.add(value);
     if (answers.weight > 0) return answers.mean;
   }
   return predict(reading, point).mean;
@@ -201,36 +197,30 @@ Eigen::MatrixXd ResponseModel::covariance(const UnitPoint& point) const {
 }
 
 Eigen::MatrixXd ResponseModel::errors_of_laboratory(const std::vector<ReadingModel::Prediction>& predictions) const {
-  const auto count = static_cast<Eigen::Index>(fitted_.size());
-  Eigen::MatrixXd out(count, count);
+  Eigen::MatrixXd out(fitted_.size(), fitted_.size());
   std::vector<double> of_heap;  // part of the standard deviation of a measurement due to replicate scatter
   for (std::size_t j = 0; j < fitted_.size(); ++j) {
     const ReadingTrainingData& first = evidence_.readings[fitted_[j]];
-    const auto row = static_cast<Eigen::Index>(j);
-    out(row, row) = first.variance();
+    out(j, j) = first.variance();
     of_heap.push_back(std::min(models_[fitted_[j]].noise_at(predictions[j].mean), first.widening * first.deviation) /
                       std::sqrt(first.weight));
     for (std::size_t k = 0; k < j; ++k) {
       const ReadingTrainingData& second = evidence_.readings[fitted_[k]];
-      const auto column = static_cast<Eigen::Index>(k);
-      out(row, column) = out(column, row) =
-          correlation_(row, column) * of_heap[j] * of_heap[k] / std::max(first.repeats, second.repeats);
+      out(j, k) = out(k, j) = correlation_(j, k) * of_heap[j] * of_heap[k] / std::max(first.repeats, second.repeats);
     }
   }
   return out + of_conditions_;
 }
 
 Eigen::MatrixXd ResponseModel::predictive_variance(const std::vector<ReadingModel::Prediction>& predictions) const {
-  const auto count = static_cast<Eigen::Index>(fitted_.size());
-  Eigen::MatrixXd out(count, count);
+  Eigen::MatrixXd out(fitted_.size(), fitted_.size());
   for (std::size_t j = 0; j < fitted_.size(); ++j) {
-    const auto row = static_cast<Eigen::Index>(j);
-    out(row, row) = predictions[j].variance;
+    out(j, j) = predictions[j].variance;
     for (std::size_t k = 0; k < j; ++k) {
       double both = 0;
       for (const Shared& one : shared_[j][k])
         both += predictions[j].weights[one.row_of_first] * predictions[k].weights[one.row_of_second] * one.covariance;
-      out(row, static_cast<Eigen::Index>(k)) = out(static_cast<Eigen::Index>(k), row) = both;
+      out(j, k) = out(k, j) = both;
     }
   }
   return out;
@@ -254,7 +244,7 @@ double ResponseModel::log_likelihood(const UnitPoint& point) const {
   const std::vector<ReadingModel::Prediction> known = predictions(point);
   Eigen::VectorXd differences(std::ssize(known));
   for (std::size_t k = 0; k < known.size(); ++k)
-    differences[static_cast<Eigen::Index>(k)] = known[k].mean - *evidence_.readings[fitted_[k]].measured;
+    differences[k] = known[k].mean - *evidence_.readings[fitted_[k]].measured;
   const Eigen::MatrixXd laboratory = errors_of_laboratory(known);
   const Eigen::LLT<Eigen::MatrixXd> of_laboratory(laboratory), of_both(laboratory + predictive_variance(known));
   const auto half_log_determinant = [](const Eigen::LLT<Eigen::MatrixXd>& cholesky) {

@@ -70,7 +70,7 @@ class ResponseModel {
  private:
   /// Rows of two readings from the same heaps.
   struct Shared {
-    Eigen::Index row_of_first = 0, row_of_second = 0;
+    std::size_t row_of_first = 0, row_of_second = 0;
     double covariance = 0;  ///< of their noise
   };
 

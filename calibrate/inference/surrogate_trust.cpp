@@ -18,8 +18,7 @@ constexpr std::size_t kNearest = 2;  // sites for each parameter
 std::vector<Replicates> answers_of(const ReadingTrainingData& reading, const Sites& sites) {
   std::vector<Replicates> out(sites.points.size());
   for (std::size_t i = 0; i < sites.of.size(); ++i)
-    if (const double value = reading.simulated[static_cast<Eigen::Index>(i)]; !std::isnan(value) && !reading.bound(i))
-      out[sites.of[i]].add(value);
+    if (const double value = reading.simulated[i]; !std::isnan(value) && !reading.bound(i)) out[sites.of[i]].add(value);
   return out;
 }
 
@@ -64,7 +63,7 @@ void SurrogateTrust::line_up(const TrainingData& evidence, const Sites& sites, s
       const ReadingTrainingData& reading = evidence.readings[fitted[k]];
       Replicates answers;
       for (std::size_t i = 0; i < sites.of.size(); ++i) {
-        const double value = reading.simulated[static_cast<Eigen::Index>(i)];
+        const double value = reading.simulated[i];
         if (sites.of[i] == site && !std::isnan(value)) answers.add(value);
       }
       if (answers.weight == 0) break;

@@ -62,18 +62,17 @@ TrainingData training_data_of(const Study& study, std::span<const StoredEvaluati
     ReadingTrainingData one;
     one.name = reading.name;
     one.test = index_of_test(study, reading.name);
-    one.simulated.resize(static_cast<Eigen::Index>(good.size()));
+    one.simulated.resize(good.size());
     for (std::size_t i = 0; i < good.size(); ++i)
-      one.simulated[static_cast<Eigen::Index>(i)] = good[i]->readings.find(reading.name).value_or(std::nan(""));
+      one.simulated[i] = good[i]->readings.find(reading.name).value_or(std::nan(""));
     if ((one.simulated.array().isInf()).any()) continue;
     for (std::size_t i = 0; some_accepted && i < good.size(); ++i)
-      if (is_rejected(i)) one.simulated[static_cast<Eigen::Index>(i)] = std::nan("");
+      if (is_rejected(i)) one.simulated[i] = std::nan("");
     if (one.simulated.array().isNaN().all()) continue;
     if (const auto known = std::ranges::find(fitted, reading.name, &StudyReading::name); known != fitted.end()) {
       for (std::size_t i = 0; i < good.size(); ++i)
         one.is_bound.push_back(good[i]->run.ended_early &&
-                               is_upper_bound(study, known->test, known->measurement.reading,
-                                              one.simulated[static_cast<Eigen::Index>(i)]));
+                               is_upper_bound(study, known->test, known->measurement.reading, one.simulated[i]));
       one.measured = known->measurement.value;
       one.deviation = known->measurement.standard_deviation;
       one.repeats = known->measurement.repeats;

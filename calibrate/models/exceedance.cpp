@@ -17,7 +17,7 @@ constexpr std::array fifths{-1.4634, -0.5988, 0.0, 0.5988, 1.4634};
 
 Eigen::VectorXd roots(std::span<const double> values) {
   Eigen::VectorXd out(std::ssize(values));
-  for (Eigen::Index i = 0; i < out.size(); ++i) out[i] = Exceedance::root(values[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < out.size(); ++i) out[i] = Exceedance::root(values[i]);
   return out;
 }
 

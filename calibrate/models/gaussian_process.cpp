@@ -64,12 +64,11 @@ void GaussianProcess::pool(std::span<const UnitPoint> points, const Eigen::Vecto
   const Sites sites = sites_of(points);
   points_ = sites.points;
   std::vector<Replicates> pooled(points_.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    pooled[sites.of[i]].add(values[static_cast<Eigen::Index>(i)], precisions[static_cast<Eigen::Index>(i)]);
+  for (std::size_t i = 0; i < points.size(); ++i) pooled[sites.of[i]].add(values[i], precisions[i]);
   values_.resize(std::ssize(pooled));
   counts_.resize(std::ssize(pooled));
   for (Eigen::Index i = 0; i < values_.size(); ++i) {
-    const Replicates& one = pooled[static_cast<std::size_t>(i)];
+    const Replicates& one = pooled[i];
     values_[i] = one.mean;
     counts_[i] = one.weight;
     squares_within_ += one.squares;
@@ -84,8 +83,7 @@ void GaussianProcess::set(const Eigen::VectorXd& lengths, double noise_ratio) {
   Eigen::MatrixXd matrix(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j) {
-      matrix(i, j) = matrix(j, i) =
-          matern_covariance(points_[static_cast<std::size_t>(i)], points_[static_cast<std::size_t>(j)], lengths_);
+      matrix(i, j) = matrix(j, i) = matern_covariance(points_[i], points_[j], lengths_);
     }
     matrix(i, i) += noise_ratio_ / counts_[i];
   }
@@ -119,9 +117,9 @@ double GaussianProcess::log_likelihood() const {
 
 GaussianProcess::Prediction GaussianProcess::predict(const UnitPoint& point) const {
   if (signal_variance_ == 0) return {mean_, 0};
-  Eigen::VectorXd correlations(static_cast<Eigen::Index>(points_.size()));
+  Eigen::VectorXd correlations(points_.size());
   for (Eigen::Index i = 0; i < correlations.size(); ++i) {
-    correlations[i] = matern_covariance(point, points_[static_cast<std::size_t>(i)], lengths_);
+    correlations[i] = matern_covariance(point, points_[i], lengths_);
   }
   const double mean = mean_ + correlations.dot(weights_);
   factor_.triangularView<Eigen::Lower>().solveInPlace(correlations);

@@ -94,8 +94,7 @@ ReadingModel::ReadingModel(std::span<const UnitPoint> sites, std::span<const Ans
   if (scale_ == 0) return;
   levels_ = Eigen::VectorXd::Zero(std::ssize(rows_));
   fit(UnitPoint::Constant(dimension() + 2, 0.5), false, 60);
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    levels_[static_cast<Eigen::Index>(i)] = (predict(place(i)).mean - centre_) / scale_;
+  for (std::size_t i = 0; i < rows_.size(); ++i) levels_[i] = (predict(place(i)).mean - centre_) / scale_;
   fit(point_of(settings_, true), true, 40);
   for (Row& row : rows_) row.noise *= scale_;
 }
@@ -148,12 +147,11 @@ void ReadingModel::condition() {
   const auto n = static_cast<Eigen::Index>(rows_.size());
   Eigen::MatrixXd prior(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j <= i; ++j)
-      prior(i, j) = prior(j, i) = covariance(place(static_cast<std::size_t>(i)), place(static_cast<std::size_t>(j)));
+    for (Eigen::Index j = 0; j <= i; ++j) prior(i, j) = prior(j, i) = covariance(place(i), place(j));
 
   double log_within = 0;  // log-likelihood of the answers about the means of their rows
   for (Eigen::Index i = 0; i < n; ++i) {
-    Row& row = rows_[static_cast<std::size_t>(i)];
+    Row& row = rows_[i];
     const double noise = noise_variance(levels_[i]);
     row.noise = std::sqrt(noise);
     if (row.is_bound) continue;
@@ -166,8 +164,8 @@ void ReadingModel::condition() {
   for (int round = 0; round < most_rounds; ++round) {
     Eigen::MatrixXd matrix = prior;
     for (Eigen::Index i = 0; i < n; ++i) {
-      matrix(i, i) += rows_[static_cast<std::size_t>(i)].variance;
-      observed[i] = rows_[static_cast<std::size_t>(i)].observed;
+      matrix(i, i) += rows_[i].variance;
+      observed[i] = rows_[i].observed;
     }
     cholesky.compute(matrix);
     weights_ = cholesky.solve(observed);
@@ -183,7 +181,7 @@ void ReadingModel::condition() {
 double ReadingModel::propagate(const Eigen::MatrixXd& prior, const Eigen::LLT<Eigen::MatrixXd>& cholesky) {
   double change = 0;
   for (Eigen::Index i = 0; i < prior.rows(); ++i) {
-    Row& row = rows_[static_cast<std::size_t>(i)];
+    Row& row = rows_[i];
     if (!row.is_bound) continue;
     const Row before = row;
     const double mean = prior.col(i).dot(weights_);
@@ -214,7 +212,7 @@ ReadingModel::Prediction ReadingModel::change(const UnitPoint& from, const UnitP
 
 Eigen::VectorXd ReadingModel::covariances(const UnitPoint& point) const {
   Eigen::VectorXd out(std::ssize(rows_));
-  for (std::size_t i = 0; i < rows_.size(); ++i) out[static_cast<Eigen::Index>(i)] = covariance(point, place(i));
+  for (std::size_t i = 0; i < rows_.size(); ++i) out[i] = covariance(point, place(i));
   return out;
 }
 
@@ -229,10 +227,8 @@ ReadingModel::Prediction ReadingModel::conditional(const Eigen::VectorXd& covari
 std::vector<double> ReadingModel::leave_one_out() const {
   std::vector<double> out(rows_.size(), 0);
   if (scale_ == 0) return out;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    if (!rows_[i].is_bound) out[i] = scale_ * weights_[k] / inverse_(k, k);
-  }
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (!rows_[i].is_bound) out[i] = scale_ * weights_[i] / inverse_(i, i);
   return out;
 }
 

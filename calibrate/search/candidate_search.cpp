@@ -192,9 +192,8 @@ std::vector<Response> in_order(const EvaluationHistory& history) {
 
 /// Residual in allowances; 0 if not fitted or without reading.
 double miss(const EvaluationHistory& history, const Response& one, std::size_t reading) {
-  const auto k = static_cast<Eigen::Index>(reading);
   const double allowance = history.allowance(reading);
-  return allowance > 0 && has_reading(one, k) ? one.residuals[k] / allowance : 0;
+  return allowance > 0 && has_reading(one, reading) ? one.residuals[reading] / allowance : 0;
 }
 
 bool all_on_one_side(const EvaluationHistory& history, std::span<const Response> seen) {

@@ -129,13 +129,13 @@ void EvaluationHistory::enter(std::string_view phase) {
 }
 
 double EvaluationHistory::allowance(std::size_t reading) const {
-  const double factor = factors_.size() == 0 ? 1 : factors_[static_cast<Eigen::Index>(reading)];
+  const double factor = factors_.size() == 0 ? 1 : factors_[reading];
   return factor * scoring().allowance(reading);
 }
 
 Eigen::VectorXd EvaluationHistory::allowances() const {
   Eigen::VectorXd allowances = Eigen::VectorXd::Zero(residuals());
-  for (int k = 0; k < readings(); ++k) allowances[k] = allowance(static_cast<std::size_t>(k));
+  for (int k = 0; k < readings(); ++k) allowances[k] = allowance(k);
   return allowances;
 }
 
@@ -151,7 +151,7 @@ void EvaluationHistory::weigh(Response& response, const Eigen::VectorXd& factors
 
 Eigen::ArrayXd EvaluationHistory::variance_between_packings() const {
   constexpr double most = 4;  // largest weight of a candidate: a candidate that shears off on some packings has many
-  std::vector<std::vector<WeighedSquare>> squares(static_cast<std::size_t>(residuals()));
+  std::vector<std::vector<WeighedSquare>> squares(residuals());
   for (std::size_t i = 0; i < singles_.size(); ++i) {
     if (!is_whole(singles_[i])) continue;
     const auto is_same = [&](const Response& one) { return is_whole(one) && one.point == singles_[i].point; };
@@ -160,15 +160,13 @@ Eigen::ArrayXd EvaluationHistory::variance_between_packings() const {
     for (std::size_t j = 0; j < i; ++j)
       if (is_same(singles_[j]))
         for (std::size_t k = 0; k < squares.size(); ++k) {
-          const auto place = static_cast<Eigen::Index>(k);
-          const double difference = singles_[i].residuals[place] - singles_[j].residuals[place];
+          const double difference = singles_[i].residuals[k] - singles_[j].residuals[k];
           squares[k].push_back({difference * difference / 2, weight});
         }
   }
   if (squares.front().empty()) return {};
   Eigen::ArrayXd variance(residuals());
-  for (std::size_t k = 0; k < squares.size(); ++k)
-    variance[static_cast<Eigen::Index>(k)] = typical_variance(squares[k]);
+  for (std::size_t k = 0; k < squares.size(); ++k) variance[k] = typical_variance(squares[k]);
   return variance;
 }
 
@@ -230,7 +228,7 @@ std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const d
   const double infinity = std::numeric_limits<double>::infinity();
   std::vector<Reach> reach;
   for (int k = 0; k < std::ssize(allowances); ++k) {
-    const double allowance = allowances[static_cast<std::size_t>(k)];
+    const double allowance = allowances[k];
     Reach one{infinity, -infinity, true, true};
     const auto heed = [&](const Response& response) {
       one.all_above = one.all_above && response.residuals[k] > allowance;

@@ -25,8 +25,7 @@ constexpr std::size_t neighbours = 4;  // of a point; all must have finished
 /// sign that makes them positive (misses).
 class Nearing {
  public:
-  Nearing(std::span<const Response> singles, std::size_t reading, double tolerance)
-      : reading_(static_cast<Eigen::Index>(reading)) {
+  Nearing(std::span<const Response> singles, std::size_t reading, double tolerance) : reading_(reading) {
     const Response* low = nullptr;
     const Response* high = nullptr;
     int above = 0;
@@ -47,7 +46,7 @@ class Nearing {
     measured_ = value_of(*low) - deviation_ * low->residuals[reading_];
     side_ = above > 0 ? 1 : -1;
     met_ = std::max(laboratory * deviation_, tolerance);
-    misses_.resize(static_cast<Eigen::Index>(points_.size()));
+    misses_.resize(points_.size());
     Eigen::Index i = 0;
     for (const Response& single : singles)
       if (is_feasible(single) && has_reading(single, reading_))
@@ -96,7 +95,7 @@ class Nearing {
   static bool is_fine(const Response& single) { return single.packings.front() < coarse_packings; }
   double value_of(const Response& single) const { return single.readings[reading_]; }
 
-  Eigen::Index reading_;
+  std::size_t reading_;
   bool one_side_ = false;
   bool all_bounds_ = true;  // every simulation ended early with only an upper bound
   double side_ = 1, measured_ = 0, deviation_ = 1, met_ = 0;
@@ -224,9 +223,8 @@ std::optional<OutOfReach> known_out_of_reach(const EvaluationHistory& history, R
 }
 
 bool contradicts(const Response& single, const OutOfReach& found) {
-  const auto reading = static_cast<Eigen::Index>(found.reading);
-  if (!is_whole(single) || !has_reading(single, reading)) return false;
-  const double read = single.readings[reading];
+  if (!is_whole(single) || !has_reading(single, found.reading)) return false;
+  const double read = single.readings[found.reading];
   return found.above ? read <= found.at_best : read >= found.at_best;
 }
 
@@ -241,7 +239,7 @@ std::string describe(const OutOfReach& found, std::span<const std::string> readi
   out += found.bounds.size() == 1 ? ". The limit is" : ". The limits are";
   for (std::size_t i = 0; i < found.bounds.size(); ++i)
     out += std::string(i == 0 ? " the " : " and the ") + (found.bounds[i].upper ? "upper" : "lower") + " bound of " +
-           name_at(parameters, static_cast<std::size_t>(found.bounds[i].parameter), "parameter ");
+           name_at(parameters, found.bounds[i].parameter, "parameter ");
   return out + ".";
 }
 
@@ -255,12 +253,11 @@ std::string describe_screening(std::span<const Response> singles, std::span<cons
   const auto count = singles.empty() ? 0 : static_cast<std::size_t>(singles.front().readings.size());
   const std::vector<Reach> reach = reach_of(singles, std::vector<double>(count, 0.0));
   for (std::size_t k = 0; k < reach.size(); ++k) {
-    const auto fitted = [&](const Response& single) { return single.residuals[static_cast<Eigen::Index>(k)] != 0; };
+    const auto fitted = [&](const Response& single) { return single.residuals[k] != 0; };
     if (std::ranges::none_of(singles, fitted)) continue;
     const Reach& one = reach[k];
     const bool or_less = std::ranges::any_of(singles, [&](const Response& single) {
-      const auto i = static_cast<Eigen::Index>(k);
-      return single.censored && single.residuals[i] < 0 && single.readings[i] == one.lowest;
+      return single.censored && single.residuals[k] < 0 && single.readings[k] == one.lowest;
     });
     out += (out.empty() ? "" : " ") + name_at(readings, k, "reading ") +
            format(": simulated values from %.3g%s to %.3g, ", one.lowest, or_less ? " or less" : "", one.highest);

@@ -28,8 +28,8 @@ std::vector<UnitPoint> screening_points(int dimension, int count, std::uint64_t 
   }
   // The engine omits the corner 0 and yields 64-bit integers; their top 53 bits give exact coordinates on every
   // machine.
-  boost::random::sobol engine(static_cast<std::size_t>(dimension));
-  std::vector<UnitPoint> points(static_cast<std::size_t>(count), UnitPoint(dimension));
+  boost::random::sobol engine(dimension);
+  std::vector<UnitPoint> points(count, UnitPoint(dimension));
   for (UnitPoint& point : points) {
     for (int k = 0; k < dimension; ++k) {
       const double moved = std::ldexp(static_cast<double>(engine() >> 11), -53) + shift[k];
@@ -70,7 +70,7 @@ bool ScreeningPhase::advance() {
   const int most = state_.options.budget_simulations / state_.scoring().simulations_each() / 2;
   if (count < 1 || asked_ > most) return true;
   const auto points = likely_points(state_, asked_ + count);
-  history.try_out(std::span(points).last(static_cast<std::size_t>(count)), std::span(state_.common).first(1));
+  history.try_out(std::span(points).last(count), std::span(state_.common).first(1));
   asked_ += count;
   return false;
 }

@@ -37,9 +37,9 @@ Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tole
   learn_rejections(seen, tolerances, rejected_share);
   std::vector<UnitPoint> all;
   std::vector<const Response*> feasible, learnt;
-  Eigen::VectorXd failed(static_cast<Eigen::Index>(seen.size()));
+  Eigen::VectorXd failed(seen.size());
   for (const Response& response : seen) {
-    failed[static_cast<Eigen::Index>(all.size())] = is_feasible(response) ? 0 : 1;
+    failed[all.size()] = is_feasible(response) ? 0 : 1;
     all.push_back(response.point);
     if (!is_feasible(response)) continue;
     feasible.push_back(&response);
@@ -88,11 +88,9 @@ void Surrogate::learn(const std::vector<UnitPoint>& points, Eigen::VectorXd valu
   Eigen::VectorXd precisions(values.size());
   const auto learn_replicate_variance = [&] {
     Eigen::VectorXd deviations = values;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      deviations[static_cast<Eigen::Index>(i)] -= model->predict(points[i]).mean;
+    for (std::size_t i = 0; i < points.size(); ++i) deviations[i] -= model->predict(points[i]).mean;
     variance.emplace(points, deviations, packings_of_a_mean * std::pow(harmless_share * tolerance, 2));
-    for (std::size_t i = 0; i < points.size(); ++i)
-      precisions[static_cast<Eigen::Index>(i)] = variance->precision(points[i]);
+    for (std::size_t i = 0; i < points.size(); ++i) precisions[i] = variance->precision(points[i]);
   };
   learn_replicate_variance();
   if (precisions.minCoeff() == 1) return;
@@ -106,8 +104,7 @@ double Surrogate::variance_of_mean(std::size_t residual, const UnitPoint& point)
 
 Eigen::VectorXd Surrogate::expected_residuals(const UnitPoint& point) const {
   Eigen::VectorXd expected(residuals());
-  for (std::size_t k = 0; k < models_.size(); ++k)
-    expected[static_cast<Eigen::Index>(k)] = models_[k] ? models_[k]->predict(point).mean : 0;
+  for (std::size_t k = 0; k < models_.size(); ++k) expected[k] = models_[k] ? models_[k]->predict(point).mean : 0;
   return expected;
 }
 
@@ -158,7 +155,7 @@ double Surrogate::failing(const UnitPoint& point) const {
 std::vector<double> Surrogate::within(std::span<const Eigen::VectorXd> bounds, const UnitPoint& point) const {
   std::vector<double> probabilities(bounds.size(), 1 - failing(point));
   for (std::size_t k = 0; k < models_.size(); ++k) {
-    const auto bound_of = [&](const Eigen::VectorXd& some) { return some[static_cast<Eigen::Index>(k)]; };
+    const auto bound_of = [&](const Eigen::VectorXd& some) { return some[k]; };
     if (!models_[k] || std::ranges::all_of(bounds, [&](const auto& some) { return bound_of(some) == 0; })) continue;
     const GaussianProcess::Prediction residual = models_[k]->predict(point);
     const double scale = std::sqrt(2 * std::max(residual.variance, std::numeric_limits<double>::min()));
@@ -186,7 +183,7 @@ void Surrogate::fantasise(const UnitPoint& point, const Eigen::VectorXd& deviate
   for (std::size_t k = 0; k < models_.size(); ++k) {
     if (!models_[k]) continue;
     const GaussianProcess::Prediction prediction = models_[k]->predict(point);
-    const double deviate = deviates[static_cast<Eigen::Index>(k)];
+    const double deviate = deviates[k];
     models_[k]->fantasise(point, prediction.mean + deviate * std::sqrt(prediction.variance), 1);
   }
 }
