@@ -17,9 +17,10 @@ namespace {
 
 constexpr double neighbourhood = 0.2;  // distance in the unit cube below which two materials count as one
 
-}  // namespace
-
-void spread_out(std::vector<UnitPoint>& chosen, const std::vector<UnitPoint>& points, std::size_t count, double apart) {
+/// Adds points as far as possible from each other and from those chosen, until there are `count`, or all others are
+/// nearer than `apart` to a chosen one.
+void spread_out(std::vector<UnitPoint>& chosen, const std::vector<UnitPoint>& points, std::size_t count,
+                double apart = 0) {
   while (chosen.size() < count) {
     const UnitPoint* farthest = nullptr;
     double most = apart;
@@ -35,6 +36,7 @@ void spread_out(std::vector<UnitPoint>& chosen, const std::vector<UnitPoint>& po
   }
 }
 
+/// The half of the points with the smaller distances.
 std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector<UnitPoint>& points) {
   std::vector<std::pair<double, std::size_t>> by_distance;
   for (std::size_t i = 0; i < points.size(); ++i) by_distance.emplace_back(model.distance(points[i]), i);
@@ -44,6 +46,8 @@ std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector
   return half;
 }
 
+/// Points at which every fitted reading is expected within one standard deviation of the measurement, or as near to it
+/// as at the recommended point. Excludes points where the response jumps, unless they were simulated.
 std::vector<UnitPoint> fitting(const ResponseModel& model, const std::vector<UnitPoint>& points,
                                const UnitPoint& recommended) {
   const auto error = [&](std::size_t k, const UnitPoint& point) {
@@ -60,6 +64,7 @@ std::vector<UnitPoint> fitting(const ResponseModel& model, const std::vector<Uni
   return out;
 }
 
+/// Recommended candidate, then simulated ones that fit, then predicted ones; all within the intervals.
 std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<UnitPoint>& sample,
                                           const UnitPoint& recommended, const std::vector<ParameterInterval>& intervals,
                                           int count) {
@@ -92,8 +97,6 @@ std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std:
   }
   return family;
 }
-
-namespace {
 
 std::vector<UnitPoint> sample_posterior(const ResponseModel& model, const InferenceOptions& options) {
   if (model.training_data().parameters.size() == 1) {
@@ -167,7 +170,7 @@ Inference infer(const TrainingData& evidence, const UnitPoint& recommended, cons
     out.fitted.push_back(evidence.readings[k].name);
     out.noise.push_back(model.noise(k, recommended));
   }
-  out.combinations = combinations_of(model, fitted, recommended);
+  out.combinations = combinations_of(model, recommended);
   for (Eigen::Index j = 0; j < recommended.size(); ++j)
     out.intervals.push_back(interval_of(model, sample, moments, recommended, j));
   std::vector<UnitPoint> seen = sample;

@@ -20,24 +20,6 @@ struct EquivalentMaterial {
   double distance = 0;           ///< `ResponseModel::distance`
 };
 
-/// Adds points as far as possible from each other and from those chosen, until there are `count`, or all others are
-/// nearer than `apart` to a chosen one.
-void spread_out(std::vector<UnitPoint>& chosen, const std::vector<UnitPoint>& points, std::size_t count,
-                double apart = 0);
-
-/// The half of the points with the smaller distances.
-std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector<UnitPoint>& points);
-
-/// Points at which every fitted reading is expected within one standard deviation of the measurement, or as near to it
-/// as at the recommended point. Excludes points where the response jumps, unless they were simulated.
-std::vector<UnitPoint> fitting(const ResponseModel& model, const std::vector<UnitPoint>& points,
-                               const UnitPoint& recommended);
-
-/// Recommended candidate, then simulated ones that fit, then predicted ones; all within the intervals.
-std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<UnitPoint>& sample,
-                                          const UnitPoint& recommended, const std::vector<ParameterInterval>& intervals,
-                                          int count);
-
 /// Inference of the free parameters from simulations and measurements.
 struct Inference {
   std::vector<std::string> fitted;  ///< fitted readings

@@ -155,7 +155,8 @@ constexpr double visible = 0.3;           // least component of a reading in a c
 constexpr double two_sided = 1.959964;    // standard deviations of 95 %
 
 /// Slope of each fitted reading in each coordinate. Shape: fitted readings x parameters.
-Eigen::MatrixXd jacobian_of(const ResponseModel& model, const std::vector<std::size_t>& fitted, const UnitPoint& at) {
+Eigen::MatrixXd jacobian_of(const ResponseModel& model, const UnitPoint& at) {
+  const std::vector<std::size_t>& fitted = model.fitted();
   Eigen::MatrixXd jacobian(fitted.size(), at.size());
   for (Eigen::Index j = 0; j < at.size(); ++j) {
     UnitPoint ahead = at, behind = at;
@@ -176,15 +177,15 @@ double width_of(const Parameter& parameter, double step) {
 
 }  // namespace
 
-std::vector<Combination> combinations_of(const ResponseModel& model, const std::vector<std::size_t>& fitted,
-                                         const UnitPoint& at) {
+std::vector<Combination> combinations_of(const ResponseModel& model, const UnitPoint& at) {
   const TrainingData& evidence = model.training_data();
+  const std::vector<std::size_t>& fitted = model.fitted();
   const Eigen::VectorXd before = deviations_before(evidence);
   // With the symmetric inverse root of the covariance each row still belongs to one reading, as far as correlation
   // allows.
   const Eigen::MatrixXd in_deviations =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(model.covariance(at)).operatorInverseSqrt();
-  const Eigen::MatrixXd scaled = in_deviations * jacobian_of(model, fitted, at) * before.asDiagonal();
+  const Eigen::MatrixXd scaled = in_deviations * jacobian_of(model, at) * before.asDiagonal();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeFullU | Eigen::ComputeFullV);
   std::vector<Combination> combinations;
   for (Eigen::Index i = 0; i < at.size(); ++i) {

@@ -59,8 +59,7 @@ struct Combination {
 
 /// Combinations from the slopes of the fitted readings at a candidate; best determined first, one for each free
 /// parameter.
-std::vector<Combination> combinations_of(const ResponseModel& model, const std::vector<std::size_t>& fitted,
-                                         const UnitPoint& at);
+std::vector<Combination> combinations_of(const ResponseModel& model, const UnitPoint& at);
 
 /// Widens a combination to the sample's standard deviation along it, because slopes at one point underestimate it for a
 /// curved posterior. The sample's replaces it if there is one parameter only.

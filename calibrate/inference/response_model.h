@@ -53,8 +53,6 @@ class ResponseModel {
   double noise(std::size_t reading, const UnitPoint& point) const;
   /// Indices of the fitted readings.
   const std::vector<std::size_t>& fitted() const { return fitted_; }
-  /// Correlation of the readings of one heap. Shape: fitted readings x fitted readings.
-  const Eigen::MatrixXd& correlation() const { return correlation_; }
   /// C of a candidate. Shape: fitted readings x fitted readings.
   Eigen::MatrixXd covariance(const UnitPoint& point) const;
   /// Distance of a candidate from measurements and priors [1]: root of the sum of squares of the weighted differences
@@ -86,7 +84,7 @@ class ResponseModel {
   TrainingData evidence_;
   std::vector<ReadingModel> models_;
   std::vector<std::size_t> fitted_;
-  Eigen::MatrixXd correlation_;
+  Eigen::MatrixXd correlation_;                           // of the readings of one heap
   Eigen::MatrixXd of_conditions_;                         // contribution of unstated conditions to L
   double independent_ = 1;                                // n/N
   std::vector<std::vector<std::vector<Shared>>> shared_;  // each fitted reading with those before it
