@@ -17,7 +17,7 @@ namespace pastefit {
 /// Grain size of a simulation.
 enum class Fidelity {
   fine,   ///< of the study
-  coarse  ///< see `low_fidelity.h`
+  coarse  ///< see `surrogate.h`
 };
 
 /// One point on one packing, to be simulated in every fitted test.

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "calibrate/base/statistics.h"
-#include "calibrate/search/low_fidelity.h"
+#include "calibrate/search/surrogate.h"
 
 namespace pastefit {
 

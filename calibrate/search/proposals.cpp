@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calibrate/optimisers/problem.h"
-#include "calibrate/search/low_fidelity.h"
+#include "calibrate/search/surrogate.h"
 #include "core/random.h"
 
 namespace pastefit {

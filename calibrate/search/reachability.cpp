@@ -9,7 +9,7 @@
 #include "calibrate/base/text.h"
 #include "calibrate/models/gaussian_process.h"
 #include "calibrate/optimisers/problem.h"
-#include "calibrate/search/low_fidelity.h"
+#include "calibrate/search/surrogate.h"
 
 namespace pastefit {
 

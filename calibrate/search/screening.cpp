@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "calibrate/search/low_fidelity.h"
+#include "calibrate/search/surrogate.h"
 
 namespace pastefit {
 

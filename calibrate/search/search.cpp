@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "calibrate/search/candidate_search.h"
-#include "calibrate/search/low_fidelity.h"
+#include "calibrate/search/surrogate.h"
 #include "calibrate/search/screening.h"
 
 namespace pastefit {

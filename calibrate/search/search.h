@@ -28,7 +28,7 @@ namespace pastefit {
 ///      is out of reach (`reachability.h`), the nearest candidate is confirmed and the search ends, unless its
 ///      simulations refute the claim. With `coarse`, the screening and every candidate of the default strategy run with
 ///      coarse grains first. Coarse results enter only the surrogate, corrected by the bias between the grain sizes
-///      (`low_fidelity.h`); they are not in the budget or in `history`.
+///      (`surrogate.h`); they are not in the budget or in `history`.
 ///   2. Search. "default": a Gaussian process of each residual, trained on all simulations. The point of largest
 ///      acquisition (`proposals.h`) is simulated on a fresh packing and may end early (`evaluate/simulation.h`, as in
 ///      the screening); it is completed if its bound does not rule it out. This repeats until a candidate is more

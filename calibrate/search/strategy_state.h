@@ -30,7 +30,7 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 /// Initial state of a search.
 struct SearchStart {
   int simulations = 0;                       ///< total allowed, one for each fitted test of a candidate
-  bool with_coarse = false;                  ///< allows coarse candidates (`low_fidelity.h`)
+  bool with_coarse = false;                  ///< allows coarse candidates (`surrogate.h`)
   std::vector<Response> earlier = {};        ///< known responses, each on one packing; not counted in the budget
   std::vector<std::string> readings = {};    ///< names for the reason, one for each reading; may be empty
   std::vector<std::string> parameters = {};  ///< names of the free parameters; may be empty

@@ -8,7 +8,7 @@
 
 #include "calibrate/base/machine.h"
 #include "calibrate/base/text.h"
-#include "calibrate/search/low_fidelity.h"
+#include "calibrate/search/surrogate.h"
 #include "calibrate/study/tests.h"
 #include "core/observe/heap.h"
 #include "core/world/world.h"

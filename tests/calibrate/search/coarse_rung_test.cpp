@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "calibrate/search/low_fidelity.h"
+#include "calibrate/search/surrogate.h"
 #include "calibrate/study/tests.h"
 
 using namespace pastefit;

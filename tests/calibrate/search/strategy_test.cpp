@@ -2,7 +2,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "calibrate/search/low_fidelity.h"
+#include "calibrate/search/surrogate.h"
 #include "calibrate/search/search.h"
 #include "fake_slump.h"
 
