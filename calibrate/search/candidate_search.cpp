@@ -28,7 +28,8 @@ bool SimulatedMinimisation::advance() {
   problem.residuals = history.residuals();
   problem.may_evaluate = [&](int points) {
     if (asked_) return false;
-    if (allowed == allowed_.size()) allowed_.push_back(allows(points));
+    if (allowed == allowed_.size())
+      allowed_.push_back(!history.stop_requested() && state_.affordable(points * state_.common.size()));
     return static_cast<bool>(allowed_[allowed++]);
   };
   problem.answer = [&](std::span<const UnitPoint> points) {
@@ -49,10 +50,6 @@ std::vector<Answer> SimulatedMinimisation::answers_of(std::span<const Response> 
     answers.push_back({response.point, response.misfit, response.residuals, !is_feasible(response),
                        goal_ > 0 && response.error <= goal_});
   return answers;
-}
-
-bool SimulatedMinimisation::allows(int points) const {
-  return !state_.history.stop_requested() && state_.affordable(static_cast<std::size_t>(points) * state_.common.size());
 }
 
 namespace {

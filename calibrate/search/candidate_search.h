@@ -28,7 +28,6 @@ class SimulatedMinimisation : public SearchPhase {
 
  private:
   std::vector<Answer> answers_of(std::span<const Response> responses) const;
-  bool allows(int points) const;
 
   StrategyState& state_;
   const double goal_;

@@ -55,6 +55,7 @@ class Nearing {
 
   bool suspect() const { return one_side_ && misses_.minCoeff() > met_; }
   bool tells_nothing() const { return all_bounds_; }
+  std::size_t reading() const { return reading_; }
   double met() const { return met_; }
   double measured() const { return measured_; }
   double side() const { return side_; }
@@ -151,6 +152,7 @@ std::optional<OutOfReach> claim(const Nearing& approach, const GaussianProcess& 
   const double at_best = miss_at(model, hopeful, allowance);
   if (at_best <= approach.met() || !approach.vouches_for(hopeful)) return std::nullopt;
   OutOfReach found;
+  found.reading = approach.reading();
   found.above = approach.side() > 0;
   found.measured = approach.measured();
   found.nearest = nearest_by(model, {}, approach.least(), hopeful);
@@ -174,18 +176,18 @@ std::string name_at(std::span<const std::string> names, std::size_t index, const
 
 bool ReachPhase::advance() {
   for (; history_.any_feasible() && reading_ < static_cast<std::size_t>(history_.readings()); ++reading_) {
-    if (!probe(reading_)) return false;
+    if (!probe()) return false;
     if (found_) return true;
     known_.reset();
   }
   return true;
 }
 
-bool ReachPhase::probe(std::size_t reading) {
+bool ReachPhase::probe() {
   if (history_.stop_requested()) return true;
   if (known_ && history_.singles().size() == *known_) return true;  // the probe was already known: nothing new
   known_.reset();
-  const Nearing approach(history_.singles(), reading, history_.tolerance(reading));
+  const Nearing approach(history_.singles(), reading_, history_.tolerance(reading_));
   if (!approach.suspect() && !approach.tells_nothing()) return true;
   // The readings of stopped simulations are needed in full.
   if (const auto ended = censored(history_.singles(), packing_); !ended.empty()) {
@@ -198,7 +200,6 @@ bool ReachPhase::probe(std::size_t reading) {
   const Allowance allowance{approach.deviations(), model.noise_variance()};
   const UnitPoint hopeful = hopeful_of(approach, model, allowance);
   found_ = claim(approach, model, allowance, hopeful);
-  if (found_) found_->reading = reading;
   if (found_ || probes_ >= most_probes_ || history_.budget_left() < 1) return true;
   ++probes_;
   known_ = history_.singles().size();
@@ -214,10 +215,7 @@ std::optional<OutOfReach> known_out_of_reach(const EvaluationHistory& history, R
     const GaussianProcess model = approach.model();
     const double noise = what == ReachOf::simulations ? model.noise_variance() : 0;
     const Allowance allowance{approach.deviations(), noise};
-    if (auto found = claim(approach, model, allowance, hopeful_of(approach, model, allowance))) {
-      found->reading = k;
-      return found;
-    }
+    if (auto found = claim(approach, model, allowance, hopeful_of(approach, model, allowance))) return found;
   }
   return std::nullopt;
 }

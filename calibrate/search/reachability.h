@@ -47,8 +47,8 @@ class ReachPhase : public SearchPhase {
   const std::optional<OutOfReach>& found() const { return found_; }
 
  private:
-  /// Requests the next simulation for a reading, or decides; false if it requested one.
-  bool probe(std::size_t reading);
+  /// Requests the next simulation for `reading_`, or decides; false if it requested one.
+  bool probe();
 
   EvaluationHistory& history_;
   const std::uint64_t packing_;

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "calibrate/search/candidate_search.h"
-#include "calibrate/search/surrogate.h"
 #include "calibrate/search/screening.h"
+#include "calibrate/search/surrogate.h"
 
 namespace pastefit {
 

@@ -2,8 +2,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "calibrate/search/surrogate.h"
 #include "calibrate/search/search.h"
+#include "calibrate/search/surrogate.h"
 #include "fake_slump.h"
 
 using namespace pastefit;
