@@ -23,31 +23,13 @@ namespace pastefit {
 ///     }
 ///     search.result();
 ///
-/// It finds a candidate within the tolerances and confirms it on packings that it has not used:
-///   1. Screening: space-filling points on one packing, all at once; earlier results count as screening. If a reading
-///      is out of reach (`reachability.h`), the nearest candidate is confirmed and the search ends, unless its
-///      simulations refute the claim. With `coarse`, the screening and every candidate of the default strategy run with
-///      coarse grains first. Coarse results enter only the surrogate, corrected by the bias between the grain sizes
-///      (`surrogate.h`); they are not in the budget or in `history`.
-///   2. Search. "default": a Gaussian process of each residual, trained on all simulations. The point of largest
-///      acquisition (`proposals.h`) is simulated on a fresh packing and may end early (`evaluate/simulation.h`, as in
-///      the screening); it is completed if its bound does not rule it out. This repeats until a candidate is more
-///      likely than not to be confirmed (`candidate_ranking.h`), or the acquisition is negligible. Up to `max_pending`
-///      candidates are pending at the next proposal. An NLopt algorithm by name, or Ceres ("levenberg_marquardt",
-///      "dogleg"): runs on the simulations from the best screening point, on all common packings, with half of the
-///      remaining budget.
-///   3. Refinement: Ceres on the residuals on the common packings, if no candidate's readings are likely to be
-///      confirmed and the noise of these packings is below the allowed misfit.
-///   4. Recommendation, by the default strategy: of the candidates that are likely to be confirmed, the one of least
-///      expected misfit, priors included (`confirmation_phase.h`).
-///   5. Confirmation of this candidate on fresh packings: a quarter first, and no more if success is then unlikely;
-///      all at once with `max_pending`; up to eight times the study's number while undecided (`confirmation_phase.h`).
-///      A candidate that is not confirmed is excluded, and the search continues from 2 with all results. Limit: a mean
-///      that is judged up to fifteen times is accepted more often than one that is judged once. Where one packing
-///      scatters by two tolerances, a material that misses by 1.2 of them is confirmed with a probability of 0.35
-///      instead of 0.23 (by 0.5 tolerances: 0.12 instead of 0.11; tests/results/search.md).
-/// The goal of 2 and 3 is stricter than the tolerance because of the winner's curse; it also requires every parameter
-/// within two standard deviations of its prior. The budget of a confirmation is reserved throughout.
+/// It finds a candidate within the tolerances and confirms it on packings that it has not used; `README.md` describes
+/// the phases. They aim at less than the tolerances because of the winner's curse, and at every parameter within two
+/// standard deviations of its prior. Results of coarse grains enter only the surrogate, corrected by the bias between
+/// the grain sizes (`surrogate.h`); they are not in the budget or in `history`. The budget of a confirmation is
+/// reserved throughout. Limit: a mean that is judged up to fifteen times is accepted more often than one that is judged
+/// once. Where one packing scatters by two tolerances, a material that misses by 1.2 of them is confirmed with a
+/// probability of 0.35 instead of 0.23 (by 0.5 tolerances: 0.12 instead of 0.11; tests/results/search.md).
 ///
 /// Requirements: `validate(options, scoring.parameters(), scoring.simulations_each())` is empty; `scoring` outlives the
 /// search; one caller at a time. The suggestions depend on the answers in the order of asking and on
