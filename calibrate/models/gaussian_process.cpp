@@ -20,10 +20,8 @@ double LogRange::share_of(double value) const {
 UnitPoint fit_hyperparameters(const std::function<double(const UnitPoint&)>& deviance, const UnitPoint& start,
                               int evaluations_each) {
   const Problem problem = scalar_problem(static_cast<int>(start.size()), deviance);
-  NloptOptions options;
-  options.algorithm = "sbplx";
-  options.evaluations = evaluations_each * problem.parameters;
-  options.step_tolerance = 0.01;
+  const NloptOptions options{
+      .algorithm = "sbplx", .evaluations = evaluations_each * problem.parameters, .step_tolerance = 0.01};
   return minimise(problem, start, options).best.point;
 }
 

@@ -90,26 +90,23 @@ double probe_length(const StrategyState& state) {
 
 std::unique_ptr<SearchPhase> descent(StrategyState& state, TrustRegion trust_region, const UnitPoint& start,
                                      int evaluations) {
-  CeresOptions ceres;
-  ceres.trust_region = trust_region;
-  ceres.evaluations = evaluations;
-  ceres.difference_step = probe_length(state);
-  ceres.step_tolerance = same_point;
-  ceres.noise = noise_of(state);
+  const CeresOptions ceres{.trust_region = trust_region,
+                           .difference_step = probe_length(state),
+                           .step_tolerance = same_point,
+                           .evaluations = evaluations,
+                           .noise = noise_of(state)};
   return std::make_unique<SimulatedMinimisation>(
       state, state.optimisers_goal(), [=](const Problem& problem) { (void)minimise(problem, start, ceres); });
 }
 
 std::unique_ptr<SearchPhase> minimisation_of_misfit(StrategyState& state) {
-  NloptOptions nlopt;
-  nlopt.algorithm = state.options.strategy;
-  nlopt.evaluations = share_of_budget(state);
-  nlopt.step_tolerance = same_point;
-  nlopt.seed = state.options.seed;
+  const NloptOptions nlopt{.algorithm = state.options.strategy,
+                           .evaluations = share_of_budget(state),
+                           .step_tolerance = same_point,
+                           .seed = state.options.seed};
+  const UnitPoint start = state.history.best_point(state.common);
   return std::make_unique<SimulatedMinimisation>(
-      state, state.optimisers_goal(), [nlopt, start = state.history.best_point(state.common)](const Problem& problem) {
-        (void)minimise(problem, start, nlopt);
-      });
+      state, state.optimisers_goal(), [=](const Problem& problem) { (void)minimise(problem, start, nlopt); });
 }
 
 }  // namespace
