@@ -269,7 +269,7 @@ Card with_other_material(Card card, const std::vector<double>& values);
 /// proportional to s). Source: Thakur, Ooi & Ahmadian, Powder Technology 293 (2016) 130-137.
 ///
 /// Results of the old grains (readings, confirmations, baseline, rebaselining) are removed; `rescaled` gets a row
-/// without bias (`check/rescale_bias.h` measures it). Errors: grains unsuitable for a test (too coarse for the mould,
+/// without bias (`with_measured_bias` measures it). Errors: grains unsuitable for a test (too coarse for the mould,
 /// finer than the format allows).
 Result<Card> rescaled(Card card, double radius_m);
 

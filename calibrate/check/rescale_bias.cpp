@@ -1,10 +1,9 @@
-#include "calibrate/check/rescale_bias.h"
-
 #include <cmath>
 #include <numeric>
 
 #include "calibrate/base/statistics.h"
 #include "calibrate/card/standing.h"
+#include "calibrate/check/check.h"
 
 namespace pastefit {
 

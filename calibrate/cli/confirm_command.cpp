@@ -14,7 +14,7 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
-#include "calibrate/check/rescale_bias.h"
+#include "calibrate/check/check.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/lammps_run.h"
 #include "calibrate/cli/options.h"

@@ -4,7 +4,7 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
-#include "calibrate/check/rescale_bias.h"
+#include "calibrate/check/check.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"

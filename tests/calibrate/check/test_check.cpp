@@ -6,7 +6,6 @@
 
 #include "calibrate/card/card.h"
 #include "calibrate/check/check.h"
-#include "calibrate/check/rescale_bias.h"
 #include "calibrate/study/parameters.h"
 #include "tests/calibrate/check/spoiled_engine.h"
 #include "tests/calibrate/slump.h"

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "calibrate/check/rescale_bias.h"
+#include "calibrate/check/check.h"
 
 using namespace pastefit;
 
