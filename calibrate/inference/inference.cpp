@@ -15,7 +15,8 @@ namespace pastefit {
 
 namespace {
 
-constexpr double neighbourhood = 0.2;  // distance in the unit cube below which two materials count as one
+constexpr double neighbourhood = 0.2;   // distance in the unit cube below which two materials count as one
+constexpr std::size_t family_size = 5;  // the recommended material included
 
 /// Adds points as far as possible from each other and from those chosen, until there are `count`, or all others are
 /// nearer than `apart` to a chosen one.
@@ -66,8 +67,8 @@ std::vector<UnitPoint> fitting(const ResponseModel& model, const std::vector<Uni
 
 /// Recommended candidate, then simulated ones that fit, then predicted ones; all within the intervals.
 std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<UnitPoint>& sample,
-                                          const UnitPoint& recommended, const std::vector<ParameterInterval>& intervals,
-                                          int count) {
+                                          const UnitPoint& recommended,
+                                          const std::vector<ParameterInterval>& intervals) {
   const TrainingData& evidence = model.training_data();
   const auto value = [&](const UnitPoint& point, std::size_t j) {
     return value_between(evidence.parameters[j], point[j]);
@@ -81,10 +82,9 @@ std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std:
     });
     return chosen;
   };
-  const auto size = static_cast<std::size_t>(count);
   std::vector<UnitPoint> points{recommended};
-  spread_out(points, chosen_from(evidence.points), size, neighbourhood);
-  spread_out(points, chosen_from(better_half(model, sample)), size);
+  spread_out(points, chosen_from(evidence.points), family_size, neighbourhood);
+  spread_out(points, chosen_from(better_half(model, sample)), family_size);
   std::vector<EquivalentMaterial> family;
   for (const UnitPoint& point : points) {
     EquivalentMaterial member;
@@ -180,8 +180,8 @@ Inference infer(const TrainingData& evidence, const UnitPoint& recommended, cons
   for (Combination& combination : out.combinations) heed_sample(combination, evidence, moments);
   out.correlation = correlation_of(moments);
   out.conditions = evidence.conditions;
-  out.family = family_of(model, sample, recommended, out.intervals, options.family);
-  if (!out.jumps) out.gains = measurement_gains(model, sample, moments, recommended, options.repeats);
+  out.family = family_of(model, sample, recommended, out.intervals);
+  if (!out.jumps) out.gains = measurement_gains(model, sample, moments, recommended);
   return out;
 }
 

@@ -37,8 +37,6 @@ struct Inference {
 
 struct InferenceOptions {
   int sample = 3000;  ///< size of the posterior sample
-  int family = 5;     ///< equivalent materials shown, the recommended one included
-  int repeats = 5;    ///< further measurements whose gain is predicted
   std::uint64_t seed = 1;
 };
 

@@ -179,11 +179,10 @@ bool met(const ResponseModel& model, std::size_t reading, const UnitPoint& recom
 /// linear regression in the sample: sqrt(1 - cov(x, m)^2/(var x (var m + error))), m: mean reading of a member of the
 /// sample, error: variance of the mean of the new measurements plus predictive variance.
 MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const std::vector<UnitPoint>& sample,
-                        const Moments& moments, int repeats, double typical_deviation) {
+                        const Moments& moments, double typical_deviation) {
   const ReadingTrainingData& evidence = model.training_data().readings[reading];
   MeasurementGain gain;
   gain.reading = evidence.name;
-  gain.measurements = repeats;
   gain.deviation = evidence.measured ? evidence.deviation : typical_deviation;
   const auto count = static_cast<double>(sample.size());
   Eigen::VectorXd means(sample.size());
@@ -194,7 +193,7 @@ MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const s
     predictive_variance += prediction.variance / count;
   }
   const Eigen::VectorXd deviations = means.array() - means.mean();
-  const double error = gain.deviation * gain.deviation / repeats + predictive_variance;
+  const double error = gain.deviation * gain.deviation / gain.measurements + predictive_variance;
   const double variance = deviations.squaredNorm() / (count - 1);
   for (Eigen::Index j = 0; j < moments.mean.size(); ++j) {
     double covariance = 0;
@@ -212,14 +211,14 @@ MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const s
 }  // namespace
 
 std::vector<MeasurementGain> measurement_gains(const ResponseModel& model, const std::vector<UnitPoint>& sample,
-                                               const Moments& moments, const UnitPoint& recommended, int repeats) {
+                                               const Moments& moments, const UnitPoint& recommended) {
   const std::vector<ReadingTrainingData>& readings = model.training_data().readings;
   double typical_deviation = std::numeric_limits<double>::infinity();
   for (const std::size_t k : model.fitted()) typical_deviation = std::min(typical_deviation, readings[k].deviation);
   std::vector<MeasurementGain> gains;
   for (std::size_t k = 0; k < readings.size(); ++k)
     if (measurable(readings[k].name) && met(model, k, recommended))
-      gains.push_back(gain_of(model, k, sample, moments, repeats, typical_deviation));
+      gains.push_back(gain_of(model, k, sample, moments, typical_deviation));
   std::ranges::stable_sort(gains, {}, &MeasurementGain::narrowing);
   return gains;
 }

@@ -28,15 +28,15 @@ Moments moments_of(const std::vector<UnitPoint>& sample);
 /// Predicted effect of further measurements of one reading on the posterior.
 struct MeasurementGain {
   std::string reading;
-  int measurements = 0;   ///< their number
+  int measurements = 5;   ///< their number
   double deviation = 0;   ///< standard deviation of one, in the reading's unit
   std::string parameter;  ///< parameter whose standard deviation decreases most
   double narrowing = 1;   ///< its standard deviation afterwards over that before
 };
 
-/// Gains of `repeats` further measurements of each reading that a laboratory can take and that the model meets, best
+/// Gains of further measurements of each reading that a laboratory can take and that the model meets, best
 /// first.
 std::vector<MeasurementGain> measurement_gains(const ResponseModel& model, const std::vector<UnitPoint>& sample,
-                                               const Moments& moments, const UnitPoint& recommended, int repeats);
+                                               const Moments& moments, const UnitPoint& recommended);
 
 }  // namespace pastefit
