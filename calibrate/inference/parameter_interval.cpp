@@ -169,10 +169,11 @@ Eigen::MatrixXd jacobian_of(const ResponseModel& model, const UnitPoint& at) {
   return jacobian;
 }
 
-/// Change of the parameter's value for a step of its coordinate: relative on a logarithmic scale, else in its unit.
-double width_of(const Parameter& parameter, double step) {
-  if (parameter.scale == Scale::linear) return step * (parameter.upper - parameter.lower);
-  return std::expm1(step * std::log(parameter.upper / parameter.lower));
+double lead_width_of(const Combination& one, const TrainingData& evidence, const Eigen::VectorXd& before) {
+  const Parameter& lead = evidence.parameters[one.lead];
+  const double step = two_sided * before[one.lead] * one.uncertainty / one.direction[one.lead];
+  if (lead.scale == Scale::linear) return step * (lead.upper - lead.lower);
+  return std::expm1(step * std::log(lead.upper / lead.lower));
 }
 
 }  // namespace
@@ -192,14 +193,10 @@ std::vector<Combination> combinations_of(const ResponseModel& model, const UnitP
     Combination one;
     if (i < svd.singularValues().size()) one.singular_value = svd.singularValues()[i];
     one.uncertainty = 1 / std::hypot(1, one.singular_value);
-    Eigen::VectorXd direction = svd.matrixV().col(i);
-    Eigen::Index lead = 0;
-    direction.cwiseAbs().maxCoeff(&lead);
-    if (direction[lead] < 0) direction = -direction;
-    one.direction.assign(direction.begin(), direction.end());
-    one.lead = static_cast<std::size_t>(lead);
-    one.lead_width =
-        width_of(evidence.parameters[one.lead], two_sided * before[lead] * one.uncertainty / direction[lead]);
+    one.direction = svd.matrixV().col(i);
+    one.direction.cwiseAbs().maxCoeff(&one.lead);
+    if (one.direction[one.lead] < 0) one.direction = -one.direction;
+    one.lead_width = lead_width_of(one, evidence, before);
     if (i < svd.matrixU().cols() && i < svd.singularValues().size()) {
       const Eigen::VectorXd part = svd.matrixU().col(i).cwiseAbs();
       std::vector<std::size_t> order(fitted.size());
@@ -214,16 +211,12 @@ std::vector<Combination> combinations_of(const ResponseModel& model, const UnitP
 }
 
 void heed_sample(Combination& combination, const TrainingData& evidence, const Moments& moments) {
-  const auto size = static_cast<Eigen::Index>(combination.direction.size());
-  const Eigen::VectorXd direction = Eigen::Map<const Eigen::VectorXd>(combination.direction.data(), size);
   const Eigen::VectorXd before = deviations_before(evidence);
-  const Eigen::VectorXd scaled = direction.cwiseQuotient(before);
+  const Eigen::VectorXd scaled = combination.direction.cwiseQuotient(before);
   const double sampled = std::sqrt(scaled.dot(moments.covariance * scaled));
-  if (sampled <= combination.uncertainty && size > 1) return;
+  if (sampled <= combination.uncertainty && scaled.size() > 1) return;
   combination.uncertainty = std::min(1.0, sampled);
-  combination.lead_width =
-      width_of(evidence.parameters[combination.lead], two_sided * before[combination.lead] * combination.uncertainty /
-                                                          combination.direction[combination.lead]);
+  combination.lead_width = lead_width_of(combination, evidence, before);
 }
 
 }  // namespace pastefit

@@ -47,8 +47,8 @@ ParameterInterval interval_of(const ResponseModel& model, const std::vector<Unit
 /// Linear combination of the parameters near the recommended candidate: a right singular vector of the scaled Jacobian
 /// of the readings.
 struct Combination {
-  std::vector<double> direction;  ///< unit vector of changes of the free parameters over their `deviation_before`
-  double singular_value = 0;      ///< of the Jacobian, readings and parameters in standard deviations
+  Eigen::VectorXd direction;  ///< unit vector of changes of the free parameters over their `deviation_before`
+  double singular_value = 0;  ///< of the Jacobian, readings and parameters in standard deviations
   double uncertainty = 1;  ///< posterior over prior deviation: 1/sqrt(1 + singular_value^2), or the sample's if larger
   std::size_t lead = 0;    ///< parameter with the largest component, which is positive
   double lead_width = 0;   ///< 95 % half width as change of the lead alone: relative if logarithmic, else in its unit
