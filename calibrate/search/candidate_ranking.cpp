@@ -67,10 +67,6 @@ std::vector<double> CandidateRanking::chances_of(const Surrogate& model, const U
   return chances;
 }
 
-double CandidateRanking::chance_of_readings(const UnitPoint& point, double tolerances) const {
-  return chances_of_readings(surrogate_, point, {&tolerances, 1}).front();
-}
-
 std::vector<double> CandidateRanking::chances_of_readings(const Surrogate& model, const UnitPoint& point,
                                                           std::span<const double> tolerances) const {
   std::vector<Eigen::VectorXd> bounds;

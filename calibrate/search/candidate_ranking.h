@@ -38,7 +38,9 @@ class CandidateRanking {
     return chances_of(surrogate_, point, {&tolerances, 1}).front();
   }
   /// The same without the factor for rejected heaps.
-  double chance_of_readings(const UnitPoint& point, double tolerances) const;
+  double chance_of_readings(const UnitPoint& point, double tolerances) const {
+    return chances_of_readings(surrogate_, point, {&tolerances, 1}).front();
+  }
 
   /// Expected margin: mean of max(0, 1 - w), w the error of the worst fitted reading in tolerances, with the factors
   /// for heaps and priors of `chance_of`. In a misfit an exact reading can compensate for one that misses, in this

@@ -84,9 +84,7 @@ void Proposals::fantasise_answers(Surrogate& model) const {
   std::uint64_t candidate = history_.responses().size();  // its future index in the history
   for (const EvaluationHistory::Asked& asked : history_.under_way()) {
     Eigen::VectorXd deviates(history_.residuals());
-    for (Eigen::Index k = 0; k < deviates.size(); ++k)
-      deviates[k] =
-          random.normal(candidate * static_cast<std::uint64_t>(deviates.size()) + static_cast<std::uint64_t>(k));
+    for (Eigen::Index k = 0; k < deviates.size(); ++k) deviates[k] = random.normal(candidate * deviates.size() + k);
     model.fantasise(asked.point, deviates);
     ++candidate;
   }
