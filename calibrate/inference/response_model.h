@@ -5,7 +5,6 @@
 
 #include "calibrate/inference/surrogate_trust.h"
 #include "calibrate/inference/training_data.h"
-#include "calibrate/models/exceedance.h"
 #include "calibrate/models/gaussian_process.h"
 #include "calibrate/models/reading_model.h"
 

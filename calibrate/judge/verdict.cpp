@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "calibrate/base/statistics.h"
-#include "calibrate/models/exceedance.h"
+#include "calibrate/models/gaussian_process.h"
 
 namespace pastefit {
 namespace {

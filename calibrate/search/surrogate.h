@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "calibrate/evaluate/response.h"
-#include "calibrate/models/exceedance.h"
 #include "calibrate/models/gaussian_process.h"
 #include "calibrate/models/replicates.h"
 

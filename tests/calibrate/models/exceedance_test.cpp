@@ -1,10 +1,9 @@
-#include "calibrate/models/exceedance.h"
-
 #include <boost/math/distributions/binomial.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "../search/synthetic.h"
+#include "calibrate/models/gaussian_process.h"
 
 using namespace pastefit;
 
