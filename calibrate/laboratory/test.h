@@ -13,9 +13,8 @@
 #include "calibrate/judge/verdict.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/drop.h"
+#include "calibrate/laboratory/granule_tests.h"
 #include "calibrate/laboratory/measurement.h"
-#include "calibrate/laboratory/pellet.h"
-#include "calibrate/laboratory/shear.h"
 #include "calibrate/laboratory/slump.h"
 
 namespace pastefit {

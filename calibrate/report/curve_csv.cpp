@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "calibrate/base/text.h"
-#include "calibrate/laboratory/granule_test.h"
+#include "calibrate/laboratory/drawing.h"
 #include "calibrate/report/views.h"
 
 namespace pastefit {
