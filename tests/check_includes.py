@@ -19,7 +19,7 @@ FILES = sorted(file for part in ("core", "calibrate") for file in (SOURCE / part
 # the laws and words that its parameters have. A new kind of test needs no entry here but for decks of its own,
 # and for a sheet that `pastefit new` asks for; `Packing` is declared there, too.
 SLUMP_FILES = {
-    "laboratory/heap_shape.cpp", "laboratory/heap_shape.h", "laboratory/reading_words.cpp", "laboratory/slump.cpp",
+    "laboratory/heap_shape.cpp", "laboratory/reading_words.cpp", "laboratory/slump.cpp",
     "laboratory/slump.h", "laboratory/slump_curves.cpp", "laboratory/slump_drawing.cpp", "laboratory/test.cpp",
     "laboratory/test.h", "laboratory/yield_stress.cpp", "laboratory/yield_stress.h",
     "browser/files.cpp", "exports/export.cpp", "exports/export.h", "exports/heap_dump.cpp", "exports/lammps.cpp",

@@ -98,7 +98,7 @@ namespace {
 std::optional<LikelyRange> strength_by_readings(const StudyTest& test) {
   Readings measured;
   for (const Measurement& one : test.lab.measurements) measured.set(one.reading, one.value);
-  return likely_strength_pa(test.lab.test, measured);
+  return std::visit([&](const auto& one) { return likely_strength_pa(one, measured); }, test.lab.test);
 }
 
 /// Largest possible error of a heap, in the reading's unit.

@@ -8,6 +8,7 @@
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/text.h"
+#include "calibrate/base/units.h"
 #include "calibrate/laboratory/specimen_json.h"
 #include "core/apparatus/dimension.h"
 
@@ -21,7 +22,18 @@ struct FileKey {
   std::string name;
   double per_si = 1;
 };
-FileKey file_key(std::string_view field);
+inline FileKey file_key(std::string_view field) {
+  struct Ending {
+    std::string_view in_si, in_files;
+    double per_si;
+  };
+  static constexpr std::array<Ending, 4> endings{
+      {{"_radius_m", "_diameter_mm", 2 * mm}, {"_m_s", "_mm_s", mm}, {"_m", "_mm", mm}, {"_rad", "_deg", degrees}}};
+  for (const Ending& end : endings)
+    if (field.ends_with(end.in_si))
+      return {std::string(field.substr(0, field.size() - end.in_si.size())) + std::string(end.in_files), end.per_si};
+  return {std::string(field)};
+}
 
 /// Field of a test: path in JSON, "mould.base_radius_m", and place in laboratory files,
 /// "apparatus.mould.base_diameter_mm". The other members are set for dimensions only, not for objects that contain

@@ -4,7 +4,9 @@
 #include <memory>
 #include <optional>
 
+#include "calibrate/base/text.h"
 #include "calibrate/laboratory/test.h"
+#include "core/laws/constants.h"
 
 namespace pastefit {
 
@@ -39,6 +41,20 @@ class RunObserver {
 /// Failure of a test whose grains are so soft that the overlap by their own attraction exceeds the limit in
 /// `RunOptions`; found without simulation. A search calls this before it prepares a candidate: the softer the grains,
 /// the smaller the poured volume and the longer the filling of the mould, both without limit.
-std::optional<Failure> too_soft(const Test& test, const RunOptions& options);
+inline std::optional<Failure> too_soft(const Test& test, const RunOptions& options) {
+  const Specimen& specimen = specimen_of(test);
+  const double overlap = 2 * resting_overlap(specimen.contact, specimen.grains.radius_m);  // in radii
+  if (!(overlap > options.steps.overlap_limit)) return std::nullopt;
+  Failure failure;
+  failure.reason = FailureReason::excessive_overlap;
+  failure.phase = "fill";
+  failure.value = overlap;
+  failure.limit = options.steps.overlap_limit;
+  failure.message = format(
+      "the grains' own attraction presses them into each other by %.3g radii; stiffer grains or "
+      "less attraction",
+      overlap);
+  return failure;
+}
 
 }  // namespace pastefit

@@ -1,5 +1,3 @@
-#include "calibrate/laboratory/heap_shape.h"
-
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -24,8 +22,7 @@ double error_of(const Measurement& one) {
 /// The first of these readings with a measurement.
 const Measurement* first_of(std::span<const Measurement> measurements, std::initializer_list<std::string> names) {
   for (const std::string& name : names)
-    for (const Measurement& one : measurements)
-      if (one.reading == name) return &one;
+    if (const Measurement* one = find_measurement(measurements, name)) return one;
   return nullptr;
 }
 

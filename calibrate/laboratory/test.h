@@ -120,17 +120,9 @@ std::optional<std::vector<PredictedReading>> readings_of_fluid(const AnyKind aut
   return std::visit([&](const auto& one) { return readings_of_fluid(one, yield_stress_pa); }, test);
 }
 
-std::optional<LikelyRange> likely_strength_pa(const AnyKind auto& test, const Readings& readings) {
-  return std::visit([&](const auto& one) { return likely_strength_pa(one, readings); }, test);
-}
-
 /// Fields of the apparatus and their places in laboratory files; objects follow their members.
 std::vector<FilePlace> places_in_files(const AnyKind auto& test) {
   return std::visit([](const auto& one) { return places_in_files(one); }, test);
-}
-
-std::optional<double> narrowest_opening_m(const AnyKind auto& test) {
-  return std::visit([](const auto& one) { return narrowest_opening_m(one); }, test);
 }
 
 /// True if the standards reject this run, so that the test must be repeated.

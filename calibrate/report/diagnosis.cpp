@@ -214,7 +214,7 @@ Diagnosis grains(const Card& card) {
     if (test.hold_out) continue;
     if (const std::string note = note_on_grain_count(test.test); !note.empty())
       out.notes.push_back(heading_of(test) + note);
-    const auto opening_m = narrowest_opening_m(test.test);
+    const auto opening_m = std::visit([](const auto& one) { return narrowest_opening_m(one); }, test.test);
     if (!opening_m) continue;
     const double across = *opening_m / (2 * largest_radius(specimen_of(test.test).grains));
     const std::string words = heading_of(test) + plain(grains_needed(test.test), 2) + " grains, " + plain(across, 2) +

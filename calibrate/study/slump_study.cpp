@@ -2,7 +2,6 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/study/slump_sheet.h"
 
 namespace pastefit {

@@ -1,8 +1,8 @@
-#include "calibrate/laboratory/heap_shape.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "calibrate/laboratory/slump.h"
 
 namespace pastefit {
 namespace {
