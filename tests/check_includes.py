@@ -26,7 +26,7 @@ SLUMP_FILES = {
     "exports/lammps_deck.cpp", "exports/lammps_deck.h", "exports/liggghts.cpp", "exports/liggghts_deck.cpp",
     "exports/liggghts_deck.h", "exports/elasto_plastic.cpp",
     "exports/parameter_table.cpp", "exports/yade.cpp",
-    "python/tasks.cpp", "study/parameters.cpp", "study/sheet_columns.cpp", "study/sheet_columns.h", "study/sheet_table.cpp", "study/sheet_table.h", "study/slump_lab_template.cpp",
+    "python/tasks.cpp", "study/parameters.cpp", "study/sheet_columns.cpp", "study/sheet_table.cpp", "study/sheet_table.h", "study/slump_lab_template.cpp",
     "study/slump_sheet.cpp", "study/slump_study.cpp", "study/slump_sheet.h", "cli/new_command.cpp", "cli/plan_command.cpp",
     "cli/template_command.cpp",
 }

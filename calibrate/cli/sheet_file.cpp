@@ -15,7 +15,6 @@
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
-#include "calibrate/study/sheet_columns.h"
 
 namespace pastefit {
 namespace {

@@ -1,5 +1,3 @@
-#include "calibrate/study/sheet_columns.h"
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -10,7 +8,7 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/study/slump_sheet.h"
+#include "calibrate/study/sheet_table.h"
 #include "calibrate/study/written_readings.h"
 
 namespace pastefit {

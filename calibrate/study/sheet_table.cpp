@@ -5,13 +5,11 @@
 #include <map>
 #include <optional>
 #include <regex>
-#include <span>
 #include <utility>
 
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/study/sheet_columns.h"
 #include "calibrate/study/written_readings.h"
 
 namespace pastefit {

@@ -11,6 +11,7 @@
 #include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
+#include "calibrate/laboratory/slump.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/written_readings.h"

@@ -2,6 +2,7 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
+#include "calibrate/laboratory/slump.h"
 #include "calibrate/study/slump_sheet.h"
 
 namespace pastefit {
