@@ -96,35 +96,31 @@ void read_grain(ObjectReader& reader, ImpactGrain& grain) {
 void read_shape(ObjectReader& reader, ImpactWall& wall) {
   const int shapes = static_cast<int>(reader.has("plane")) + reader.has("plate") + reader.has("shell");
   if (shapes != 1) reader.fault("plane", "one shape is needed", "give \"plane\", \"plate\" or \"shell\", and only one");
-  for (const char* key : {"plane", "plate", "shell"}) reader.known(key);
-  if (reader.has("plane"))
-    reader.object("plane", Need::required, [&](ObjectReader& of) {
-      Plane plane;
-      read_vector(of, "point_m", plane.point, Need::optional);
-      read_direction(of, "normal", plane.normal);
-      wall.shape = plane;
-    });
-  if (reader.has("plate"))
-    reader.object("plate", Need::required, [&](ObjectReader& of) {
-      Plate plate;
-      read_vector(of, "centre_m", plate.centre, Need::optional);
-      read_direction(of, "along", plate.along);
-      read_direction(of, "across", plate.across);
-      of.number("length_m", plate.half_length, kLength, Need::required, 2);
-      of.number("width_m", plate.half_width, kLength, Need::required, 2);
-      if (std::fabs(dot(plate.along, plate.across)) > 1e-9)
-        of.fault("across", "is not at a right angle to \"along\"", "two orthogonal directions");
-      wall.shape = plate;
-    });
-  if (reader.has("shell"))
-    reader.object("shell", Need::required, [&](ObjectReader& of) {
-      Shell shell;
-      read_vector(of, "base_m", shell.base, Need::optional);
-      of.number("base_radius_m", shell.base_radius, kLength, Need::required);
-      of.number("top_radius_m", shell.top_radius, kLength, Need::required);
-      of.number("height_m", shell.height, kLength, Need::required);
-      wall.shape = shell;
-    });
+  reader.object("plane", Need::optional, [&](ObjectReader& of) {
+    Plane plane;
+    read_vector(of, "point_m", plane.point, Need::optional);
+    read_direction(of, "normal", plane.normal);
+    wall.shape = plane;
+  });
+  reader.object("plate", Need::optional, [&](ObjectReader& of) {
+    Plate plate;
+    read_vector(of, "centre_m", plate.centre, Need::optional);
+    read_direction(of, "along", plate.along);
+    read_direction(of, "across", plate.across);
+    of.number("length_m", plate.half_length, kLength, Need::required, 2);
+    of.number("width_m", plate.half_width, kLength, Need::required, 2);
+    if (std::fabs(dot(plate.along, plate.across)) > 1e-9)
+      of.fault("across", "is not at a right angle to \"along\"", "two orthogonal directions");
+    wall.shape = plate;
+  });
+  reader.object("shell", Need::optional, [&](ObjectReader& of) {
+    Shell shell;
+    read_vector(of, "base_m", shell.base, Need::optional);
+    of.number("base_radius_m", shell.base_radius, kLength, Need::required);
+    of.number("top_radius_m", shell.top_radius, kLength, Need::required);
+    of.number("height_m", shell.height, kLength, Need::required);
+    wall.shape = shell;
+  });
 }
 
 void read_wall(ObjectReader& reader, ImpactWall& wall) {
