@@ -63,10 +63,10 @@ constexpr std::array<StartingParameter, 3> of_sjkr{{
 }};
 
 constexpr std::array<StartingLaws, 4> known_laws{{
-    {"bridge", "hertz", "polynomial", of_bridge, "the polynomial liquid bridge of Platzer & Fimbinger (2022)"},
-    {"epa", "epa", "none", of_epa, "elasto-plastic adhesion (EEPA), of which stiff heaps stand, too"},
-    {"jkr", "jkr", "none", of_jkr, "JKR, grains that stick where they touch"},
-    {"sjkr", "sjkr", "none", of_sjkr, "LIGGGHTS' simplified JKR"},
+    {"bridge", "hertz", "polynomial", of_bridge},
+    {"epa", "epa", "none", of_epa},
+    {"jkr", "jkr", "none", of_jkr},
+    {"sjkr", "sjkr", "none", of_sjkr},
 }};
 
 constexpr std::array<TargetLaws, 9> known_targets{{
@@ -97,13 +97,10 @@ std::string listed_once(const List& list, std::string_view List::value_type::*na
 
 /// Lines of "parameters" in a study, each with its meaning.
 std::vector<std::string> parameter_lines(const StartingLaws& laws) {
-  std::vector<const StartingParameter*> written;
-  for (const StartingParameter& one : laws.parameters)
-    if (!one.of_two.empty()) written.push_back(&one);
   std::vector<std::string> out;
-  for (const StartingParameter* one : written)
-    out.push_back("\"" + std::string(one->name) + "\": " + std::string(one->of_two) +
-                  (one == written.back() ? "" : ",") + "  // " + std::string(one->meaning));
+  for (const StartingParameter& one : laws.parameters)
+    out.push_back("\"" + std::string(one.name) + "\": " + std::string(one.of_two) +
+                  (&one == &laws.parameters.back() ? "" : ",") + "  // " + std::string(one.meaning));
   return out;
 }
 
@@ -131,10 +128,11 @@ Fault no_such_laws(std::string_view target, std::string_view law) {
             "one of " + names_of_targets()};
   if (std::ranges::count(known_laws, law, &StartingLaws::word) == 0)
     return {"--law " + printable(law), "is not a law that a study can start from", "one of " + names_of_laws()};
-  std::string others;
+  std::vector<std::string_view> others;
   for (const TargetLaws& laws : known_targets)
-    if (laws.target == target) others += (others.empty() ? "" : ", ") + std::string(laws.law);
-  return {"--law " + printable(law), "is a law that " + std::string(target) + " does not run", "one of " + others};
+    if (laws.target == target) others.push_back(laws.law);
+  return {"--law " + printable(law), "is a law that " + std::string(target) + " does not run",
+          "one of " + listed(others)};
 }
 
 std::string names_of_targets() {

@@ -13,8 +13,8 @@ namespace pastefit {
 /// Parameter of a starting study, in JSON.
 struct StartingParameter {
   std::string_view name;
-  std::string_view of_two;  ///< if a height and a spread are measured; empty: omitted
-  std::string_view of_one;  ///< if only one of them is measured
+  std::string_view of_two;  ///< if a height and a spread are measured
+  std::string_view of_one;  ///< if only one of them is measured; empty: omitted
   std::string_view meaning;
 };
 
@@ -23,7 +23,6 @@ struct StartingLaws {
   std::string_view word;  ///< name in options: "epa"
   std::string_view normal, attraction;
   std::span<const StartingParameter> parameters;  ///< the first is the adhesion, and always free
-  std::string_view meaning;
 };
 
 /// Laws that a program implements. Its deck reproduces the heap of the card, unless `why` states a difference.
