@@ -60,7 +60,7 @@ void describe_density(auto& material, Specimen& specimen) {
                   specimen.bulk_density_kg_m3, bulk_density, Need::required);
 }
 
-void describe_customary(auto& reading, CustomaryReading& one, const Range& range) {
+void describe_customary(auto& reading, Measurement& one, const Range& range) {
   reading.shared("reading");
   reading.number({"value", "usual value, in the unit of the reading's key"}, one.value, range, Need::required);
   reading.number({"standard_deviation", "standard deviation of one reading, in the same unit"}, one.standard_deviation,
@@ -90,7 +90,7 @@ void read_customary(ObjectReader& document, Apparatus& apparatus) {
         readings.refuse(kind.key, std::string(kind.lack->what), std::string(kind.lack->remedy));
         continue;
       }
-      CustomaryReading one{std::string(kind.key)};
+      Measurement one{std::string(kind.key)};
       const auto read = [&](ObjectReader& reading) {
         describe_customary(reading, one, {kind.possible.smallest, kind.possible.largest});
       };
@@ -224,7 +224,7 @@ ObjectSchema::Json apparatus_schema() {
                  "readings that are customary for this apparatus, each with its usual value; `pastefit template lab` "
                  "prints them"},
                 Need::optional, [](ObjectSchema& readings) {
-                  CustomaryReading any;
+                  Measurement any;
                   for (const ReadingKind& kind : all_reading_kinds())
                     if (!kind.key.empty() && !kind.from_outline)
                       readings.object({kind.key, meaning_of_reading(kind.key)}, Need::optional, [&](ObjectSchema& one) {
@@ -323,7 +323,8 @@ Result<Apparatus> apparatus_from_json(const json& document) {
     ObjectReader reader(document, "", faults);
     reader.known("format");
     reader.text("title", apparatus.title, Need::required);
-    read_provenance(reader, apparatus.provenance);
+    Provenance unused;
+    read_provenance(reader, unused);
     const std::size_t before = faults.size();
     read_kind(reader, apparatus.test);
     read_apparatus(reader, apparatus.test, std::nullopt);

@@ -10,22 +10,15 @@
 
 namespace pastefit {
 
-/// A customary reading of an apparatus: default value and standard deviation of a single reading, in its unit.
-struct CustomaryReading {
-  std::string key;  ///< in laboratory files
-  double value = 0, standard_deviation = 0;
-};
-
 /// Apparatus file of data/apparatus: an apparatus with default material, default grains and customary readings; a
 /// laboratory file without measurements.
 struct Apparatus {
   std::string title;
-  Provenance provenance;
-  Test test;                               ///< contact parameters have their default values
-  std::vector<CustomaryReading> readings;  ///< may be empty
-  std::vector<std::string> standards;      ///< whose apparatus it is, e.g. "EN 12350-2"; may be empty
-  std::string caution;                     ///< warning for every user: a sentence without a full stop
-  std::filesystem::path file;              ///< empty if not read from a file
+  Test test;                           ///< contact parameters have their default values
+  std::vector<Measurement> readings;   ///< customary ones, with their keys and usual values; may be empty
+  std::vector<std::string> standards;  ///< whose apparatus it is, e.g. "EN 12350-2"; may be empty
+  std::string caution;                 ///< warning for every user: a sentence without a full stop
+  std::filesystem::path file;          ///< empty if not read from a file
   /// The file without comments, white space and what does not affect simulations (readings, caution). Part of the hash
   /// of every file that uses it.
   std::string content;

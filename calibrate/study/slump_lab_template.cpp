@@ -12,22 +12,22 @@
 namespace pastefit {
 namespace {
 
-std::string reading_line(const CustomaryReading& one, bool last) {
-  return "\"" + one.key + "\": {\"value\": " + shown(one.value) +
+std::string reading_line(const Measurement& one, bool last) {
+  return "\"" + one.reading + "\": {\"value\": " + shown(one.value) +
          ", \"standard_deviation\": " + shown(one.standard_deviation) + "}" + (last ? "" : ",");
 }
 
 /// Assumed readings of a slump test: half of the height remains, in a shape between paraboloid and cone.
-std::vector<CustomaryReading> usual_readings(const SlumpTest& test) {
+std::vector<Measurement> usual_readings(const SlumpTest& test) {
   constexpr double left = 0.5, cones = 0.85;
   const double height_m = left * test.mould.height_m;
   const double cone_m = 2 * std::sqrt(3 * volume_m3(test.mould) / (std::numbers::pi * height_m));
-  std::vector<CustomaryReading> out{{"step1.height_mm", mm * height_m}, {"step1.spread_mm", mm * cones * cone_m}};
+  std::vector<Measurement> out{{"step1.height_mm", mm * height_m}, {"step1.spread_mm", mm * cones * cone_m}};
   const auto own_kinds = reading_kinds(test);
-  for (CustomaryReading& one : out) {
+  for (Measurement& one : out) {
     one.value = rounded(one.value, 2);
     for (const ReadingKind& kind : own_kinds)
-      if (kind.key == one.key) one.standard_deviation = rounded(kind.published_deviation, 2);
+      if (kind.key == one.reading) one.standard_deviation = rounded(kind.published_deviation, 2);
   }
   return out;
 }
@@ -81,7 +81,7 @@ void fill_in(std::string& lab, const std::string& name, const Apparatus& preset)
   replace_lines(lab, "\"grains\":", {grains_line(test.grains)});
   const auto readings = preset.readings.empty() ? usual_readings(test) : preset.readings;
   std::vector<std::string> measured;
-  for (const CustomaryReading& one : readings) measured.push_back(reading_line(one, &one == &readings.back()));
+  for (const Measurement& one : readings) measured.push_back(reading_line(one, &one == &readings.back()));
   replace_lines(lab, "\"step1.slump_mm\":", measured, 2);
 }
 
