@@ -54,13 +54,6 @@ constexpr std::array<PlausibleRange, 2> plausible{{
      "these grains hardly roll; it stands in for something that the model lacks, their shape for instance"},
 }};
 
-/// The place of a parameter in a list of values. A name that there is not does not compile.
-consteval std::size_t at(std::string_view name) {
-  for (std::size_t i = 0; i < kinds.size(); ++i)
-    if (kinds[i].name == name) return i;
-  throw "no such parameter";
-}
-
 }  // namespace
 
 std::span<const ParameterKind> parameter_kinds() {
@@ -113,7 +106,7 @@ std::vector<double> values_at(const Study& study, std::span<const double> unit_p
 
 namespace {
 
-/// The place of a parameter whose name is put together in the program: a surface's, or a law's.
+/// The place of a parameter in a list of values.
 std::size_t parameter_at(std::string_view name) {
   const auto kind = std::ranges::find(kinds, name, &ParameterKind::name);
   assert(kind != kinds.end());
@@ -199,9 +192,7 @@ Fault foreign_parameter(const ContactModel& laws, std::string place, std::string
   std::string owners, chosen, remedy;
   for (const Choice& choice : choices_of(laws, name)) {
     if (choice.having.empty()) continue;
-    std::string words;
-    for (const std::string_view word : choice.having) words += (words.empty() ? "" : ", ") + in_quotes(word);
-    owners += (owners.empty() ? "" : ", or to ") + std::string(choice.key) + " " + words;
+    owners += (owners.empty() ? "" : ", or to ") + std::string(choice.key) + " " + listed(choice.having, in_quotes);
     chosen += (chosen.empty() ? "" : ", ") + std::string(choice.key) + " " + in_quotes(choice.chosen);
     if (remedy.empty())
       remedy =
@@ -230,10 +221,10 @@ Test with_contact_of(Test test, std::span<const double> values) {
   with_law(Attractions{}, contact.bridge.shape, make);
   with_law(NormalLaws{}, contact.normal, make);
   with_law(RollingLaws{}, contact.rolling, make);
-  contact.friction = values[at("friction")];
-  contact.restitution = values[at("restitution")];
-  contact.youngs_modulus_pa = values[at("youngs_modulus_pa")];
-  contact.poissons_ratio = values[at("poissons_ratio")];
+  contact.friction = values[parameter_at("friction")];
+  contact.restitution = values[parameter_at("restitution")];
+  contact.youngs_modulus_pa = values[parameter_at("youngs_modulus_pa")];
+  contact.poissons_ratio = values[parameter_at("poissons_ratio")];
   for (const Surface& surface : surfaces_of(test)) {
     surface.contact.friction = values[parameter_at(std::string(surface.name) + "_friction")];
     surface.contact.rolling_friction = values[parameter_at(std::string(surface.name) + "_rolling_friction")];

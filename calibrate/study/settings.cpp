@@ -110,9 +110,8 @@ Result<Study> read_study_with(const std::filesystem::path& file, const std::vect
   };
   Result<Study> study = read_study(file, changes);
   if (study.ok() && faults.empty()) {
-    Study changed = std::move(study).value();
-    changed.settings = texts;
-    return changed;
+    study.value().settings = texts;
+    return study;
   }
   if (!study.ok()) faults.insert(faults.end(), study.faults().begin(), study.faults().end());
   return faults;
