@@ -25,10 +25,6 @@ std::vector<DrawnPoint> flight(double height_m, double end_s, double half_s) {
 
 }  // namespace
 
-double grains_needed(const DropTest&) {
-  return 1;
-}
-
 std::vector<FilePlace> places_in_files(const DropTest&) {
   std::vector<FilePlace> places;
   add_places(places, drop_dimensions);

@@ -24,13 +24,6 @@ inline constexpr std::string_view kind_of(const ShearCell&) {
   return "shear";
 }
 
-inline double grains_needed(const PelletCrush& test) {
-  return poured_grains(test);
-}
-inline double grains_needed(const ShearCell& test) {
-  return poured_grains(test);
-}
-
 double moved_time_s(const PelletCrush& test);
 double moved_time_s(const ShearCell& test);
 

@@ -33,10 +33,6 @@ std::string preparation_key(const SlumpTest& test) {
   return nlohmann::json{filling.friction, filling.resting_overlap, filling.youngs_modulus_pa}.dump();
 }
 
-double grains_needed(const SlumpTest& test) {
-  return grains_to_fill(test);
-}
-
 namespace {
 
 /// Spread over time from the beginning of the lift.

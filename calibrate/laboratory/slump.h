@@ -31,7 +31,6 @@ std::vector<Surface> surfaces_of(SlumpTest& test);
 /// Pours the grains into the mould. Tests of one laboratory file with the same seed and key share the packing.
 std::shared_ptr<const Packing> prepare(const SlumpTest& test, const RunOptions& options);
 std::string preparation_key(const SlumpTest& test);
-double grains_needed(const SlumpTest& test);
 
 inline constexpr std::array<Named<HeightReading>, 2> height_readings{
     {{"axis", HeightReading::axis}, {"highest", HeightReading::highest}}};

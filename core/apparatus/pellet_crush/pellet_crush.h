@@ -60,7 +60,7 @@ Outcome simulate(const PelletCrush& test, const RunOptions& options = {});
 std::vector<ReadingKind> reading_kinds(const PelletCrush& test);
 
 /// Number of granules poured.
-double poured_grains(const PelletCrush& test);
+double grains_needed(const PelletCrush& test);
 
 /// Inner volume of the die up to the fill height [m^3], and area of the pellet [m^2].
 double filled_volume_m3(const PelletCrush& test);

@@ -9,7 +9,7 @@
 
 namespace pastefit {
 
-double poured_grains(const PelletCrush& test) {
+double grains_needed(const PelletCrush& test) {
   return number_of_granules(test, poured_volume_m3(filled_volume_m3(test)));
 }
 

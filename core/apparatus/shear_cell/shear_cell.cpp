@@ -74,7 +74,7 @@ double inertial_number(const ShearCell& test) {
   return rate * 2 * test.grains.radius_m * std::sqrt(test.bulk_density_kg_m3 / test.normal_stress_pa);
 }
 
-double poured_grains(const ShearCell& test) {
+double grains_needed(const ShearCell& test) {
   return number_of_granules(test, poured_volume_m3(filled_volume_m3(test)));
 }
 

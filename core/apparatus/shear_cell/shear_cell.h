@@ -76,7 +76,7 @@ Outcome simulate(const ShearCell& test, const RunOptions& options = {});
 std::vector<ReadingKind> reading_kinds(const ShearCell& test);
 
 /// Number of granules poured.
-double poured_grains(const ShearCell& test);
+double grains_needed(const ShearCell& test);
 
 /// Area of the lid [m^2], and volume between base plate and fill height, ribs included [m^3].
 double area_m2(const ShearCell& test);

@@ -220,7 +220,7 @@ void blame_sizes(Packing& packing) {
 
 }  // namespace
 
-double grains_to_fill(const SlumpTest& test) {
+double grains_needed(const SlumpTest& test) {
   constexpr int kDraws = 1000;
   double volume = 0;
   for (int n = 0; n < kDraws; ++n)

@@ -60,7 +60,7 @@ double grain_density(const SlumpTest& test, const Packing& packing);
 
 /// Number of grains that fill mould and hopper: their solid volume over the mean volume of a grain. Some are struck
 /// off.
-double grains_to_fill(const SlumpTest& test);
+double grains_needed(const SlumpTest& test);
 
 /// Indices of the walls in a slump test's world. The mould is the last one and is removed after the lift.
 inline constexpr std::size_t kTable = 0, kGround = 1, kMould = 2;

@@ -50,7 +50,7 @@ TEST_CASE("as many grains fill the mould as is foretold, whatever their sizes") 
       return false;
     };
     (void)fill_mould(test, options);
-    CHECK(grains_to_fill(test) == Approx(static_cast<double>(drawn)).epsilon(0.05));
+    CHECK(grains_needed(test) == Approx(static_cast<double>(drawn)).epsilon(0.05));
   }
 }
 
