@@ -14,10 +14,10 @@ namespace {
 
 using nlohmann::json;
 
-/// Calls `visit(Kind{})` for every kind until one returns true.
+/// Calls `visit(Kind{})` for every kind.
 void each_kind(const auto& visit) {
   const auto all = [&]<std::size_t... row>(std::index_sequence<row...>) {
-    (void)(visit(std::variant_alternative_t<row, Test>{}) || ...);
+    (visit(std::variant_alternative_t<row, Test>{}), ...);
   };
   all(std::make_index_sequence<std::variant_size_v<Test>>{});
 }
@@ -90,10 +90,7 @@ Faults validate_in_file_words(const Test& test) {
 
 std::vector<std::string_view> kinds_of_tests() {
   std::vector<std::string_view> words;
-  each_kind([&](const auto& kind) {
-    words.push_back(kind_of(kind));
-    return false;
-  });
+  each_kind([&](const auto& kind) { words.push_back(kind_of(kind)); });
   return words;
 }
 
@@ -101,7 +98,6 @@ std::optional<Test> test_of_kind(std::string_view word) {
   std::optional<Test> test;
   each_kind([&](const auto& kind) {
     if (kind_of(kind) == word) test = kind;
-    return test.has_value();
   });
   return test;
 }
@@ -135,7 +131,6 @@ std::vector<ReadingKind> all_reading_kinds() {
   each_kind([&](const auto& kind) {
     const auto own = reading_kinds(default_test(kind));
     all.insert(all.end(), own.begin(), own.end());
-    return false;
   });
   return all;
 }
@@ -173,7 +168,6 @@ nlohmann::ordered_json schema_of_tests(ObjectSchema& schema) {
       form.constant({"kind", "kind of laboratory test; default slump"}, kind_of(kind), need);
       describe_test(form, kind);
     }));
-    return false;
   });
   return {{"oneOf", forms}};
 }
@@ -191,7 +185,6 @@ nlohmann::ordered_json schema_of_apparatus(ObjectSchema& schema, bool presets) {
     }));
   each_kind([&](auto kind) {
     forms.push_back(schema.described([&](ObjectSchema& form) { describe_apparatus(form, kind, Need::required); }));
-    return false;
   });
   return {{"oneOf", forms}};
 }
