@@ -107,7 +107,6 @@ class HeapDrawing {
   void draw_widths() {
     double z = 0;
     for (const char* name : {"spread_mm", "spread_orthogonal_mm"}) {
-      if (!measurement(name)) continue;
       each_value(name, [&](DrawnBy by, double value, double deviation) {
         z -= kBelow * rim();
         add(name, by, {-value / 2, z}, {value / 2, z}, {-value / 2, 0}, {value / 2, 0}, value, deviation);
@@ -118,29 +117,27 @@ class HeapDrawing {
   /// Draws the sag of the plateau over its window, and its width at 0.8 of the height of the middle.
   void draw_top() {
     const double window = mm * test_.reading.sag_window_m;
-    if (measurement("plateau_sag_mm"))
-      each_value("plateau_sag_mm", [&](DrawnBy by, double sag, double deviation) {
-        const double height = mean_of_runs("height_mm").value_or(0);
-        const char* whose = by == DrawnBy::laboratory ? "laboratory" : "simulated";
-        drawing_.lines.push_back({std::string(whose) + format(", top sags by %.1f mm over %g mm", sag, window),
-                                  by,
-                                  {{-window / 2, height + sag / 2}, {window / 2, height - sag / 2}},
-                                  deviation});
-      });
-    if (measurement("plateau_width_mm"))
-      each_value("plateau_width_mm", [&](DrawnBy by, double width, double deviation) {
-        const double level = 0.8 * mean_of_runs("height_mm").value_or(0);
-        const double z = level + (by == DrawnBy::laboratory ? 0.02 : -0.02) * rim();
-        add("plateau_width_mm", by, {-width / 2, z}, {width / 2, z}, {-width / 2, level}, {width / 2, level}, width,
-            deviation);
-      });
+    each_value("plateau_sag_mm", [&](DrawnBy by, double sag, double deviation) {
+      const double height = mean_of_runs("height_mm").value_or(0);
+      const char* whose = by == DrawnBy::laboratory ? "laboratory" : "simulated";
+      drawing_.lines.push_back({std::string(whose) + format(", top sags by %.1f mm over %g mm", sag, window),
+                                by,
+                                {{-window / 2, height + sag / 2}, {window / 2, height - sag / 2}},
+                                deviation});
+    });
+    each_value("plateau_width_mm", [&](DrawnBy by, double width, double deviation) {
+      const double level = 0.8 * mean_of_runs("height_mm").value_or(0);
+      const double z = level + (by == DrawnBy::laboratory ? 0.02 : -0.02) * rim();
+      add("plateau_width_mm", by, {-width / 2, z}, {width / 2, z}, {-width / 2, level}, {width / 2, level}, width,
+          deviation);
+    });
   }
 
   /// Draws two straight lines at the angle of repose along the part of the flank on which it is read: through its
   /// middle on the mean heap, or, before any simulation, on the cone with the mould's volume.
   void draw_flanks() {
     const auto& flank = test_.reading.flank;
-    if (!flank || !measurement("angle_of_repose_deg")) return;
+    if (!flank) return;
     each_value("angle_of_repose_deg", [&](DrawnBy by, double angle, double deviation) {
       const double slope = std::tan(angle / degrees);
       if (!(slope > 0) || angle >= 90) return;
@@ -186,9 +183,11 @@ class HeapDrawing {
     return mean_reading(accepted_, step_ + "." + name);
   }
 
-  /// Calls `draw(by, value, standard deviation)` for the measured and the simulated value of a reading.
+  /// Calls `draw(by, value, standard deviation)` for the measured and the simulated value of a measured reading.
   void each_value(const std::string& name, const auto& draw) const {
-    if (const Measurement* one = measurement(name)) draw(DrawnBy::laboratory, one->value, one->standard_deviation);
+    const Measurement* one = measurement(name);
+    if (!one) return;
+    draw(DrawnBy::laboratory, one->value, one->standard_deviation);
     if (const auto mean = mean_of_runs(name)) draw(DrawnBy::simulation, *mean, 0.0);
   }
 

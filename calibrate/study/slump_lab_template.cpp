@@ -1,11 +1,10 @@
-#include <cmath>
-#include <numbers>
 #include <sstream>
 #include <vector>
 
 #include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
+#include "calibrate/laboratory/slump.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/slump_sheet.h"
 
@@ -20,9 +19,9 @@ std::string reading_line(const Measurement& one, bool last) {
 /// Assumed readings of a slump test: half of the height remains, in a shape between paraboloid and cone.
 std::vector<Measurement> usual_readings(const SlumpTest& test) {
   constexpr double left = 0.5, cones = 0.85;
-  const double height_m = left * test.mould.height_m;
-  const double cone_m = 2 * std::sqrt(3 * volume_m3(test.mould) / (std::numbers::pi * height_m));
-  std::vector<Measurement> out{{"step1.height_mm", mm * height_m}, {"step1.spread_mm", mm * cones * cone_m}};
+  const double height_mm = left * mm * test.mould.height_m;
+  std::vector<Measurement> out{{"step1.height_mm", height_mm},
+                               {"step1.spread_mm", cones * cone_width_mm(test, height_mm)}};
   const auto own_kinds = reading_kinds(test);
   for (Measurement& one : out) {
     one.value = rounded(one.value, 2);
