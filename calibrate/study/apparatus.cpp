@@ -333,8 +333,7 @@ Result<Apparatus> apparatus_from_json(const json& document) {
     reader.texts("standards", apparatus.standards, Need::optional);
     reader.text("caution", apparatus.caution, Need::optional);
     apparatus.test = with_default_contact(apparatus.test);
-    if (faults.size() == before)
-      for (Fault& fault : validate_in_file_words(apparatus.test)) faults.push_back(std::move(fault));
+    if (faults.size() == before) append(faults, validate_in_file_words(apparatus.test));
     if (faults.size() == before)
       read_customary(reader, apparatus);  // the possible readings depend on the apparatus
     else

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/apparatus.h"
@@ -164,8 +165,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     // After a fault in a section, the checks would only report defaults.
     const auto judge_test = [&] {
       if (values_are_good(faults, before))
-        for (Fault& fault : with_defaults_named(validate_in_file_words(lab.test), document, preset.has_value()))
-          faults.push_back(std::move(fault));
+        append(faults, with_defaults_named(validate_in_file_words(lab.test), document, preset.has_value()));
     };
     judge_test();
     if (values_are_good(faults, before)) ask_about_sizes(lab.test, questions);
@@ -175,10 +175,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     for (const FilePlace& one : places_in_files(lab.test))
       if (one.often_unstated && has_place(document, one.place) && std::ranges::count(assumed, one.place) == 0)
         lab.stated.push_back(one.place);
-    if (values_are_good(faults, before)) {
-      ReadingCheck check = check_readings(lab.test, lab.measurements);
-      for (Fault& fault : check.faults) faults.push_back(std::move(fault));
-    }
+    if (values_are_good(faults, before)) append(faults, check_readings(lab.test, lab.measurements).faults);
     lab.notes = questions.notes();
     for (std::string& note : notes_on_conditions(lab)) lab.notes.push_back(std::move(note));
     if (lab.yield_stress && faults.empty()) lab.notes.push_back(note_on_yield_stress(lab));

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/refusal.h"
 #include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
@@ -51,9 +52,8 @@ std::string reading_fault_place(std::string_view name) {
 /// The value, or nothing after appending the faults.
 template <class T>
 std::optional<T> taken(const Result<T>& result, Faults& faults) {
-  if (result.ok()) return result.value();
-  faults.insert(faults.end(), result.faults().begin(), result.faults().end());
-  return std::nullopt;
+  append(faults, result);
+  return result.ok() ? std::optional(result.value()) : std::nullopt;
 }
 
 /// Base, top and height of a mould [mm] from "200/100/300" or "8/4/12 in"; nothing for other texts.
@@ -351,8 +351,7 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   ordered_json measurements;
   if (test) measurements = measurements_of(sheet, *test, faults);
   const std::vector<double> stresses_pa = yield_stresses_in(sheet, faults);
-  if (density)
-    for (Fault& fault : doubtful_numbers(sheet, *density)) faults.push_back(std::move(fault));
+  if (density) append(faults, doubtful_numbers(sheet, *density));
   ordered_json grains;
   if (test) grains = grains_json(sheet, *test, faults);
   if (test && sheet.readings.empty() && sheet.yield_stress.empty())

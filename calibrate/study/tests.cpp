@@ -4,6 +4,7 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/schemas.h"
@@ -74,10 +75,8 @@ void read_lab_of(ObjectReader& reader, const LabReading& labs, StudyTest& test) 
     return lab.ok() ? std::move(lab) : in_file(lab.faults(), reader.place("lab"));
   };
   Result<Lab> lab = in_place ? read_in_place() : read_lab((labs.folder / test.lab_file).lexically_normal(), change);
-  if (lab.ok())
-    test.lab = std::move(lab).value();
-  else
-    labs.faults.insert(labs.faults.end(), lab.faults().begin(), lab.faults().end());
+  append(labs.faults, lab);
+  if (lab.ok()) test.lab = std::move(lab).value();
 }
 
 /// Names are used before a slash in reading names, and in one line of a table.
