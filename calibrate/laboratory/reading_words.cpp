@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
 #include "calibrate/laboratory/measurement.h"
@@ -8,7 +9,7 @@ namespace pastefit {
 
 std::string_view meaning_of_reading(std::string_view key) {
   using Meaning = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Meaning, 37> meanings{{
+  static constexpr std::array<Meaning, 30> meanings{{
       {"fill.mass_kg", "mass of the mould's content"},
       {"step1.height_mm", "height of the heap at the point that apparatus.reading.height names"},
       {"step1.slump_mm", "height of the mould minus height of the heap; an alternative to height_mm"},
@@ -27,15 +28,6 @@ std::string_view meaning_of_reading(std::string_view key) {
        "difference between measured and simulated curve"},
       {"step1.angle_of_repose_deg",
        "slope of the part of the flank that apparatus.reading.flank gives, mean over all directions"},
-      {"step2.height_mm", "height of the heap at the point that apparatus.reading.height names"},
-      {"step2.slump_mm", "height of the mould minus height of the heap; an alternative to height_mm"},
-      {"step2.height_max_mm", "height of the highest point of the heap"},
-      {"step2.height_axis_mm", "height at the displaced centre of the struck-off top"},
-      {"step2.spread_mm", "width of the heap, mean over all directions"},
-      {"step2.spread_orthogonal_mm", "mean of two widths of the heap at right angles"},
-      {"step2.profile",
-       "outline of the heap in side view; its residual is the root mean square difference between measured and "
-       "simulated outline"},
       {"step2.plateau_sag_mm",
        "height difference of the top over apparatus.reading.sag_window_mm, positive if the top is lower towards the "
        "plate's free edge"},
@@ -58,7 +50,9 @@ std::string_view meaning_of_reading(std::string_view key) {
       {"shear.height_mm", "height of the bed, mean over the steady part"},
   }};
   const auto found = std::ranges::find(meanings, key, &Meaning::first);
-  return found == meanings.end() ? std::string_view() : found->second;
+  if (found != meanings.end()) return found->second;
+  // After the drop, most readings are those after the lift.
+  return key.starts_with("step2.") ? meaning_of_reading("step1." + std::string(key.substr(6))) : std::string_view();
 }
 
 }  // namespace pastefit
