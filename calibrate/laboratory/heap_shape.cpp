@@ -100,27 +100,18 @@ void check_shape(const SlumpTest& test, const Heap& heap, const std::string& whe
 /// Largest width of a peak on a skirt, over the cone's width; beyond it, no volume is left.
 constexpr double widest_skirt = 1.5;
 
-/// Fault of a height and a width that cannot belong to one heap. `extreme_mm`: the limiting width.
-Fault contradiction(const SlumpTest& test, const Heap& heap, const std::string& why, double extreme_mm,
-                    std::string remedy) {
+/// Fault of a height and a width that cannot belong to one heap.
+Fault contradiction(const SlumpTest& test, const Heap& heap) {
+  const bool wide = share_of_cone_width(test, heap) > 1;
+  const std::string why = wide ? "the mould holds too little for it; a cone of this height, the widest"
+                               : "what the mould holds does not fit in; a flat cylinder of this height, the narrowest";
+  const double extreme_mm = wide ? cone_width_mm(test, heap.height.value) : narrowest_mm(test, heap.height.value);
   return {"measurements",
           heap.height.reading + format(" (%.4g) contradicts ", heap.height.value) + heap.width.reading +
               format(" (%.4g): ", heap.width.value) + why + format(" heap, is %.4g mm wide", extreme_mm) +
               slips_of(test, heap),
-          std::move(remedy)};
-}
-
-Fault too_much_volume(const SlumpTest& test, const Heap& heap) {
-  return contradiction(test, heap, "the mould holds too little for it; a cone of this height, the widest",
-                       cone_width_mm(test, heap.height.value),
-                       "look for a slump that was given as a height, for a reading of another test, and at the mould");
-}
-
-Fault missing_volume(const SlumpTest& test, const Heap& heap) {
-  return contradiction(
-      test, heap, "what the mould holds does not fit in; a flat cylinder of this height, the narrowest",
-      narrowest_mm(test, heap.height.value),
-      "look for a slump that was given as a height, for a radius that was given as a width, and at the mould");
+          std::string("look for a slump that was given as a height, for a ") +
+              (wide ? "reading of another test" : "radius that was given as a width") + ", and at the mould"};
 }
 
 }  // namespace
@@ -230,10 +221,9 @@ ReadingCheck check_readings(const SlumpTest& test, std::span<const Measurement> 
     if (width && width->value > 0) check_cake(test, *width, check);
     if (!height || !width || height->value <= 0) continue;
     const Heap heap{*height, *width};
-    if (share_of_cone_width(test, heap) < pancake - sure * deviation_of_share(test, heap))
-      check.faults.push_back(missing_volume(test, heap));
-    else if (share_of_cone_width(test, heap) > widest_skirt + sure * deviation_of_share(test, heap))
-      check.faults.push_back(too_much_volume(test, heap));
+    const double share = share_of_cone_width(test, heap), margin = sure * deviation_of_share(test, heap);
+    if (share < pancake - margin || share > widest_skirt + margin)
+      check.faults.push_back(contradiction(test, heap));
     else
       check_shape(test, heap,
                   step == "step1."   ? ""
