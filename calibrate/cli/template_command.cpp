@@ -19,10 +19,10 @@ struct TemplateOptions {
 /// Starting files of a mould for dry materials; for other moulds, its laboratory file and the common study of slump
 /// tests.
 std::string template_of_mould(const TemplateOptions& options) {
-  if (auto own = template_text_of_mould(options.name, options.mould)) return *own;
   if (options.name != "lab" && options.name != "study")
     refuse({{"--mould " + printable(options.mould), "is for lab and study, not for " + printable(options.name),
              "template lab --mould ..., template study --mould ..."}});
+  if (auto own = template_text(options.name + "-" + options.mould)) return *own;
   std::string lab = value_or_throw(slump_lab_template(options.mould, "."));
   return options.name == "study" ? *template_text("study") : lab;
 }

@@ -121,11 +121,6 @@ std::optional<std::string> template_text(std::string_view name) {
   return std::optional<std::string>(embedded_text("laboratory/templates/" + std::string(name) + ending));
 }
 
-std::optional<std::string> template_text_of_mould(std::string_view name, std::string_view preset) {
-  if (name != "lab" && name != "study") return std::nullopt;
-  return template_text(std::string(name) + "-" + std::string(preset));
-}
-
 std::vector<ReadingKind> all_reading_kinds() {
   std::vector<ReadingKind> all;
   each_kind([&](const auto& kind) {

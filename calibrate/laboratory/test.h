@@ -159,12 +159,9 @@ std::vector<std::string> template_names();
 
 /// Starting file (laboratory/templates): JSON with comments, valid as it is, whose study refers to "lab.json" in its
 /// folder; or measuring sheet for printing (HTML, A4) whose heads `sheet_table` reads, in English or German
-/// ("sheet-de"). Nothing for unknown names.
+/// ("sheet-de"). "lab-PRESET" and "study-PRESET": those of a preset with its own starting files, the lifted cylinder,
+/// whose tests are of materials other than pastes. Nothing for unknown names.
 std::optional<std::string> template_text(std::string_view name);
-
-/// "lab" or "study" for an apparatus preset with its own starting files: the lifted cylinder, whose tests are of
-/// materials other than pastes. Nothing for other presets.
-std::optional<std::string> template_text_of_mould(std::string_view name, std::string_view preset);
 
 /// Readings of all kinds of tests, with default values.
 std::vector<ReadingKind> all_reading_kinds();

@@ -94,7 +94,7 @@ ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest&
 ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements, double radius_mm,
                             HeapWidth width) {
   if (is_dry(measurements))
-    return ordered_json::parse(*template_text_of_mould("study", "lifted-cylinder"), nullptr, true, true)["parameters"];
+    return ordered_json::parse(*template_text("study-lifted-cylinder"), nullptr, true, true)["parameters"];
   const auto is_there = [&](std::string_view part) {
     for (const auto& [key, reading] : measurements.items())
       if (key.find(part) != std::string::npos) return true;

@@ -59,9 +59,8 @@ TEST_CASE("every kind of test has two templates that are read as they are, of al
 
 TEST_CASE("the templates of the lifted cylinder are read as they are: dry grains, whose frictions are free") {
   const Desk desk;
-  desk.folder().write("lab.json", template_text_of_mould("lab", "lifted-cylinder").value());
-  const auto study =
-      read_study(desk.folder().write("study.json", template_text_of_mould("study", "lifted-cylinder").value()));
+  desk.folder().write("lab.json", template_text("lab-lifted-cylinder").value());
+  const auto study = read_study(desk.folder().write("study.json", template_text("study-lifted-cylinder").value()));
   INFO((study.ok() ? "" : message_of(study.faults())));
   REQUIRE(study.ok());
   std::vector<std::string> free;
@@ -69,8 +68,7 @@ TEST_CASE("the templates of the lifted cylinder are read as they are: dry grains
     if (one.free) free.push_back(one.name);
   CHECK(free == std::vector<std::string>{"friction", "rolling_friction"});
   CHECK(study.value().tests[0].lab.notes.empty());
-  CHECK_FALSE(template_text_of_mould("lab", "abrams"));
-  CHECK_FALSE(template_text_of_mould("pellet-lab", "lifted-cylinder"));
+  CHECK_FALSE(template_text("lab-abrams"));
 }
 
 TEST_CASE("the shipped studies are read: height and spread to fit where a heap can have both, else the height") {
