@@ -114,16 +114,7 @@ std::string standard_in(const std::string& name) {
   return number;
 }
 
-std::size_t readings_taken(const Test& test) {
-  const auto own_kinds = reading_kinds(test);
-  return static_cast<std::size_t>(std::ranges::count_if(own_kinds, [](const ReadingKind& kind) { return !kind.lack; }));
-}
-
 }  // namespace
-
-std::string caution_of(const Apparatus& preset, const Test& test) {
-  return readings_taken(test) > readings_taken(preset.test) ? "" : preset.caution;
-}
 
 std::vector<std::string> preset_names(const fs::path& folder) {
   std::vector<std::string> names;
@@ -153,18 +144,6 @@ std::string preset_of_standard(const std::string& name, const fs::path& folder) 
         if (standard_in(own) == wanted) return preset;
     }
   return trimmed(name);
-}
-
-std::string note_on_preset(const Apparatus& preset) {
-  std::vector<fs::path> shipped = apparatus_folders({});
-  shipped.erase(shipped.begin());
-  const auto is_here = [&](const fs::path& folder) {
-    std::error_code error;
-    return fs::equivalent(folder, preset.file.parent_path(), error);
-  };
-  if (std::ranges::any_of(shipped, is_here)) return {};
-  return "the preset " + one_line(preset.file.stem().string()) + " is " + one_line(preset.file.string()) +
-         ", not the shipped one";
 }
 
 std::vector<fs::path> apparatus_folders(const fs::path& folder) {

@@ -30,13 +30,6 @@ Result<Apparatus> apparatus_from_json(const nlohmann::json& document);
 /// Reads an apparatus file ("format": "pastefit-rig-1"). Errors: every fault, with the file name.
 Result<Apparatus> read_apparatus_file(const std::filesystem::path& file);
 
-/// Note on a preset beside the file that names it: "the preset abrams is /mine/apparatus/abrams.json, not the shipped
-/// one"; empty for a shipped preset.
-std::string note_on_preset(const Apparatus& preset);
-
-/// The preset's caution; empty if the test has readings that the preset's own apparatus does not have.
-std::string caution_of(const Apparatus& preset, const Test& test);
-
 std::vector<std::string> preset_names(const std::filesystem::path& folder);
 
 /// Finds a preset by its name in a file in `folder`. Errors: no such preset, or a faulty one.

@@ -1,7 +1,9 @@
 #include "calibrate/study/lab.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <utility>
 
 #include "calibrate/base/json_reader.h"
@@ -112,6 +114,28 @@ void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats)
           "measurements." + one.reading,
           "has " + std::to_string(one.repeats) + " repeats, but only " + std::to_string(stood) + " heaps stood",
           "leave out the readings of heaps that sheared off, or count them in \"repeats\"");
+}
+
+/// Note on a preset beside the file that names it: "the preset abrams is /mine/apparatus/abrams.json, not the shipped
+/// one"; empty for a shipped preset.
+std::string note_on_preset(const Apparatus& preset) {
+  std::vector<std::filesystem::path> shipped = apparatus_folders({});
+  shipped.erase(shipped.begin());
+  const auto is_here = [&](const std::filesystem::path& folder) {
+    std::error_code error;
+    return std::filesystem::equivalent(folder, preset.file.parent_path(), error);
+  };
+  if (std::ranges::any_of(shipped, is_here)) return {};
+  return "the preset " + one_line(preset.file.stem().string()) + " is " + one_line(preset.file.string()) +
+         ", not the shipped one";
+}
+
+/// The preset's caution; empty if the test has readings that the preset's own apparatus does not have.
+std::string caution_of(const Apparatus& preset, const Test& test) {
+  const auto taken_by = [](const Test& one) {
+    return std::ranges::count_if(reading_kinds(one), [](const ReadingKind& kind) { return !kind.lack; });
+  };
+  return taken_by(test) > taken_by(preset.test) ? "" : preset.caution;
 }
 
 /// Reads "mix": numbers under names chosen by the user.

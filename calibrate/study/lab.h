@@ -34,9 +34,6 @@ class Questions {
 /// rheometer. Fault: no reading of this test is related to a yield stress.
 std::optional<Measurement> read_yield_stress(ObjectReader& material, const Test& test, Questions& questions);
 
-/// Predicted readings of a fluid with this yield stress, as members of "measurements"; empty without a formula.
-std::string predicted_in_words(const Test& test, double yield_stress_pa);
-
 /// Reads "measurements": each reading with {"value", "standard_deviation"} or {"repeats": [...]}.
 /// Repeats give mean and sample standard deviation; "standard_deviation" beside them is its lower bound. A slump
 /// becomes the height of the heap, mould height minus slump. A profile, {"points": [[x_mm, z_mm], ...],

@@ -185,6 +185,17 @@ bool refuse_times(ObjectReader& reader, std::span<const ReadingKind> own) {
 constexpr ReadingKind yield_stress_kind{
     .name = "yield_stress_pa", .key = "yield_stress_pa", .measure = "yield_stress_pa", .possible = {1e-2, 1e5}};
 
+/// Predicted readings of a fluid with this yield stress, as members of "measurements"; empty without a formula.
+std::string predicted_in_words(const Test& test, double yield_stress_pa) {
+  std::string out;
+  for (const PredictedReading& one : readings_of_fluid(test, yield_stress_pa).value_or(std::vector<PredictedReading>{}))
+    out += (out.empty() ? "" : ", or ") + in_quotes(std::string(one.key)) +
+           ": {\"value\": " + shown(rounded(one.value, 3)) +
+           ", \"standard_deviation\": " + shown(rounded(one.standard_deviation, 2)) + "} (" + std::string(one.formula) +
+           ", with the formula's own error)";
+  return out;
+}
+
 /// Advice for a laboratory file without readings.
 std::string advice_without_readings(const Test& test, std::span<const ReadingKind> kinds,
                                     const std::optional<Measurement>& yield_stress) {
@@ -213,16 +224,6 @@ std::optional<Measurement> read_yield_stress(ObjectReader& material, const Test&
       [&](ObjectReader& reader) { read_one(reader, yield_stress_kind, measurement, questions); },
       R"({"value": ..., "standard_deviation": ...}, or {"repeats": [...]}, in Pa)");
   return there ? std::optional(measurement) : std::nullopt;
-}
-
-std::string predicted_in_words(const Test& test, double yield_stress_pa) {
-  std::string out;
-  for (const PredictedReading& one : readings_of_fluid(test, yield_stress_pa).value_or(std::vector<PredictedReading>{}))
-    out += (out.empty() ? "" : ", or ") + in_quotes(std::string(one.key)) +
-           ": {\"value\": " + shown(rounded(one.value, 3)) +
-           ", \"standard_deviation\": " + shown(rounded(one.standard_deviation, 2)) + "} (" + std::string(one.formula) +
-           ", with the formula's own error)";
-  return out;
 }
 
 std::vector<Measurement> read_measurements(ObjectReader& document, Test& test,

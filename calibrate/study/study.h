@@ -45,7 +45,7 @@ struct Lab {
   std::vector<std::string> stated;          ///< often unstated places (`FilePlace`) that the file gives
   std::string content;                      ///< of the file and its preset, as JSON text
   std::string hash;                         ///< of the file with its preset (64-bit, hexadecimal)
-  std::string note;                         ///< on the preset (`note_on_preset`); may be empty
+  std::string note;                         ///< on the preset, if it is not the shipped one; may be empty
   std::vector<std::string> notes;  ///< on its numbers, before any simulation: one sentence each, without a full stop
 };
 
