@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -44,6 +45,12 @@ struct FilePlace {
   std::string_view meaning = {};
   bool has_default = false, often_unstated = false;
 };
+
+/// Pointer to a field or place in a document, e.g. "apparatus.mould.height_mm".
+inline nlohmann::json::json_pointer pointer_to(std::string place) {
+  std::ranges::replace(place, '.', '/');
+  return nlohmann::json::json_pointer("/" + place);
+}
 
 template <class Owner>
 Range range_in_files(const Dimension<Owner>& dimension) {

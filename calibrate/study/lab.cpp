@@ -33,25 +33,11 @@ void ask_about_sizes(const Test& test, Questions& questions) {
   }
 }
 
-/// True if the document has the key at this place, e.g. "apparatus.mould.height_mm"; false for readings.
-bool has_place(const nlohmann::json& document, std::string_view place) {
-  const nlohmann::json* object = &document;
-  while (object->is_object()) {
-    const auto dot = place.find('.');
-    const auto found = object->find(place.substr(0, dot));
-    if (found == object->end()) return false;
-    if (dot == std::string_view::npos) return true;
-    object = &*found;
-    place.remove_prefix(dot + 1);
-  }
-  return false;
-}
-
 /// Marks numbers that the file does not give as defaults, or as values of the preset.
 Faults with_defaults_named(Faults faults, const nlohmann::json& document, bool preset) {
   for (Fault& fault : faults) {
     const bool key = fault.where.starts_with("apparatus.") || fault.where.starts_with("grains.");
-    if (!key || has_place(document, fault.where)) continue;
+    if (!key || document.contains(pointer_to(fault.where))) continue;
     fault.what += preset ? " (from the preset)" : " (the default)";
     fault.remedy += "; add the key";
   }
@@ -197,7 +183,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     judge_test();  // a reading enables its measurement, whose defaults may not suit the apparatus
     read_repeats(reader, lab, lab.repeats);
     for (const FilePlace& one : places_in_files(lab.test))
-      if (one.often_unstated && has_place(document, one.place) && std::ranges::count(assumed, one.place) == 0)
+      if (one.often_unstated && document.contains(pointer_to(one.place)) && std::ranges::count(assumed, one.place) == 0)
         lab.stated.push_back(one.place);
     if (values_are_good(faults, before)) append(faults, check_readings(lab.test, lab.measurements).faults);
     lab.notes = questions.notes();

@@ -12,11 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-json::json_pointer pointer_to(std::string field) {
-  std::ranges::replace(field, '.', '/');
-  return json::json_pointer("/" + field);
-}
-
 Parameter& parameter_of(Study& study, const std::string& name) {
   return *std::ranges::find(study.parameters, name, &Parameter::name);
 }
