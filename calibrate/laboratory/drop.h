@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "calibrate/laboratory/default_answers.h"
-#include "calibrate/laboratory/dimension_json.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/specimen_json.h"
 #include "core/apparatus/drop_test/drop_test.h"

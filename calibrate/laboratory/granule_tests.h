@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "calibrate/laboratory/default_answers.h"
-#include "calibrate/laboratory/dimension_json.h"
 #include "calibrate/laboratory/drawing.h"
+#include "calibrate/laboratory/specimen_json.h"
 #include "core/apparatus/pellet_crush/pellet_crush.h"
 #include "core/apparatus/shear_cell/shear_cell.h"
 

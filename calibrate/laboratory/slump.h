@@ -10,7 +10,6 @@
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/default_answers.h"
-#include "calibrate/laboratory/dimension_json.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/measurement.h"
 #include "calibrate/laboratory/specimen_json.h"
