@@ -25,22 +25,6 @@ std::vector<DrawnPoint> flight(double height_m, double end_s, double half_s) {
 
 }  // namespace
 
-std::vector<FilePlace> places_in_files(const DropTest&) {
-  std::vector<FilePlace> places;
-  add_places(places, drop_dimensions);
-  return places;
-}
-
-DropTest default_test(const DropTest&) {
-  DropTest test;
-  test.plate_tilt_rad = 0.5;
-  return test;
-}
-
-std::string_view why_of_that_size(const DropTest&) {
-  return "the ball of a drop test is one grain, as large as the laboratory's";
-}
-
 nlohmann::ordered_json conditions_of(const DropTest& test) {
   return {{"drop_height_m", test.drop_height_m}, {"impact_speed_m_s", impact_speed_m_s(test)}};
 }

@@ -26,16 +26,26 @@ inline double grains_needed(const DropTest&) {
 void describe_apparatus(auto& apparatus, DropTest& test, Need need) {
   read_dimensions(apparatus, test, drop_dimensions, need);
 }
-std::vector<FilePlace> places_in_files(const DropTest&);
+inline std::vector<FilePlace> places_in_files(const DropTest&) {
+  std::vector<FilePlace> places;
+  add_places(places, drop_dimensions);
+  return places;
+}
 
 void describe_test(auto& fields, DropTest& test) {
   describe_dimensions(fields, test, drop_dimensions);
   describe_specimen(fields, test);
 }
 
-DropTest default_test(const DropTest&);
+inline DropTest default_test(const DropTest&) {
+  DropTest test;
+  test.plate_tilt_rad = 0.5;
+  return test;
+}
 
-std::string_view why_of_that_size(const DropTest& test);
+inline std::string_view why_of_that_size(const DropTest&) {
+  return "the ball of a drop test is one grain, as large as the laboratory's";
+}
 
 nlohmann::ordered_json conditions_of(const DropTest& test);
 std::string conditions_in_words(const DropTest& test);

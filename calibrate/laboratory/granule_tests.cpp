@@ -9,18 +9,6 @@
 
 namespace pastefit {
 
-std::vector<FilePlace> places_in_files(const PelletCrush&) {
-  std::vector<FilePlace> places;
-  add_places(places, pellet_dimensions);
-  add_places(places, surface_dimensions, "tools", "apparatus.tools");
-  return places;
-}
-
-double moved_time_s(const PelletCrush& test) {
-  return (test.fill_height_m - test.pressed_height_m) / (test.punch_speed_m_s * test.press_speedup) +
-         test.final_strain * test.pressed_height_m / test.platen_speed_m_s;
-}
-
 nlohmann::ordered_json conditions_of(const PelletCrush& test) {
   return {{"pressed_share", test.pressed_height_m / test.fill_height_m},
           {"platen_speed_m_s", test.platen_speed_m_s},
@@ -62,19 +50,6 @@ std::vector<Drawing> drawings_of(const PelletCrush& test, std::span<const SeenRu
                                0});
   }
   return {drawing};
-}
-
-std::vector<FilePlace> places_in_files(const ShearCell&) {
-  std::vector<FilePlace> places;
-  add_places(places, shear_dimensions);
-  add_places(places, rib_dimensions, "lid_ribs", "apparatus.lid_ribs");
-  add_places(places, rib_dimensions, "base_ribs", "apparatus.base_ribs");
-  add_places(places, surface_dimensions, "tools", "apparatus.tools");
-  return places;
-}
-
-double moved_time_s(const ShearCell& test) {
-  return test.final_displacement_m / (test.shear_speed_m_s * test.shear_speedup);
 }
 
 nlohmann::ordered_json conditions_of(const ShearCell& test) {

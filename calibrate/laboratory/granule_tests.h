@@ -24,8 +24,13 @@ inline constexpr std::string_view kind_of(const ShearCell&) {
   return "shear";
 }
 
-double moved_time_s(const PelletCrush& test);
-double moved_time_s(const ShearCell& test);
+inline double moved_time_s(const PelletCrush& test) {
+  return (test.fill_height_m - test.pressed_height_m) / (test.punch_speed_m_s * test.press_speedup) +
+         test.final_strain * test.pressed_height_m / test.platen_speed_m_s;
+}
+inline double moved_time_s(const ShearCell& test) {
+  return test.final_displacement_m / (test.shear_speed_m_s * test.shear_speedup);
+}
 
 /// Surface of the tools in laboratory and apparatus files.
 void read_tools(auto& apparatus, WallContact& tools) {
@@ -58,8 +63,20 @@ void describe_apparatus(auto& apparatus, ShearCell& test, Need need) {
   read_tools(apparatus, test.tools);
 }
 
-std::vector<FilePlace> places_in_files(const PelletCrush&);
-std::vector<FilePlace> places_in_files(const ShearCell&);
+inline std::vector<FilePlace> places_in_files(const PelletCrush&) {
+  std::vector<FilePlace> places;
+  add_places(places, pellet_dimensions);
+  add_places(places, surface_dimensions, "tools", "apparatus.tools");
+  return places;
+}
+inline std::vector<FilePlace> places_in_files(const ShearCell&) {
+  std::vector<FilePlace> places;
+  add_places(places, shear_dimensions);
+  add_places(places, rib_dimensions, "lid_ribs", "apparatus.lid_ribs");
+  add_places(places, rib_dimensions, "base_ribs", "apparatus.base_ribs");
+  add_places(places, surface_dimensions, "tools", "apparatus.tools");
+  return places;
+}
 
 void describe_test(auto& fields, PelletCrush& test) {
   describe_dimensions(fields, test, pellet_dimensions);

@@ -18,23 +18,6 @@ double largest_pressure_pa(const SlumpTest& test) {
   return test.bulk_density_kg_m3 * kGravity * test.mould.height_m;
 }
 
-}  // namespace
-
-std::vector<Surface> surfaces_of(SlumpTest& test) {
-  return {{"mould", test.mould_wall}, {"table", test.table_wall}};
-}
-
-std::shared_ptr<const Packing> prepare(const SlumpTest& test, const RunOptions& options) {
-  return fill_mould(test, options);
-}
-
-std::string preparation_key(const SlumpTest& test) {
-  const Filling filling = filling_of(test);
-  return nlohmann::json{filling.friction, filling.resting_overlap, filling.youngs_modulus_pa}.dump();
-}
-
-namespace {
-
 /// Spread over time from the beginning of the lift.
 void read_spread_curve(ObjectReader& reader, SlumpTest& test) {
   constexpr std::size_t fewest = 3;
@@ -45,6 +28,11 @@ void read_spread_curve(ObjectReader& reader, SlumpTest& test) {
 }
 
 }  // namespace
+
+std::string preparation_key(const SlumpTest& test) {
+  const Filling filling = filling_of(test);
+  return nlohmann::json{filling.friction, filling.resting_overlap, filling.youngs_modulus_pa}.dump();
+}
 
 void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test) {
   if (kind.name == "step1.spread_curve_mm") return read_spread_curve(reader, test);
@@ -91,12 +79,6 @@ double moved_time_s(const SlumpTest& test) {
   return lift_s + (test.drop->drops - 1) * moving_time_s(*test.drop);
 }
 
-SlumpTest default_test(const SlumpTest&) {
-  SlumpTest test;
-  test.drop.emplace();
-  return test;
-}
-
 std::optional<double> grain_density_of(const SlumpTest& test, const Readings& means) {
   const auto solid = means.find("fill.solid_fraction");
   return solid ? std::optional(test.bulk_density_kg_m3 / *solid) : std::nullopt;
@@ -112,10 +94,6 @@ double default_tolerance(const SlumpTest& test, const Measurement& measured) {
   if (measured.reading == "step1.lateral_shift_mm") return mm * kShearedShift * wider_radius_m(test.mould);
   const bool length = measured.reading.ends_with("_mm");
   return length ? std::max(measured.standard_deviation, 0.5 * mm * test.grains.radius_m) : measured.standard_deviation;
-}
-
-std::optional<double> narrowest_opening_m(const SlumpTest& test) {
-  return std::min(2 * narrower_radius_m(test.mould), test.mould.height_m);
 }
 
 std::string unseen_by(const SlumpTest&, std::span<const std::string_view> readings,
@@ -138,11 +116,6 @@ std::string unseen_by(const SlumpTest&, std::span<const std::string_view> readin
          "\"friction\": {\"value\": 0.15}, or measure the spread.";
 }
 
-std::vector<Experience> experience_of(const SlumpTest& test) {
-  return {{"material.bulk_density_kg_m3", test.bulk_density_kg_m3, 400, 5000},
-          {"apparatus.mould.height_mm", mm * test.mould.height_m, 40, 600}};
-}
-
 nlohmann::ordered_json conditions_of(const SlumpTest& test) {
   return {{"lift_velocity_m_s", test.lift_velocity_m_s}, {"largest_pressure_pa", largest_pressure_pa(test)}};
 }
@@ -159,14 +132,6 @@ std::string conditions_in_words(const SlumpTest& test) {
          drops +
          format("  pressure                 up to %s Pa, the weight of the full mould\n",
                 plain(largest_pressure_pa(test)).c_str());
-}
-
-std::optional<double> rejection_index(const SlumpTest& test, const Readings& run) {
-  return shear_index(test, run);
-}
-
-std::string_view rejected_runs(const SlumpTest&) {
-  return "heaps sheared off";
 }
 
 std::string remarks_on(const SlumpTest& test, std::span<const Readings> runs) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -9,12 +10,14 @@
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/units.h"
 #include "calibrate/laboratory/default_answers.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/measurement.h"
 #include "calibrate/laboratory/specimen_json.h"
 #include "calibrate/laboratory/yield_stress.h"
 #include "core/apparatus/slump/packing.h"
+#include "core/apparatus/slump/ruler.h"
 #include "core/apparatus/slump/slump_test.h"
 
 namespace pastefit {
@@ -25,10 +28,14 @@ inline constexpr std::string_view kind_of(const SlumpTest&) {
   return "slump";
 }
 
-std::vector<Surface> surfaces_of(SlumpTest& test);
+inline std::vector<Surface> surfaces_of(SlumpTest& test) {
+  return {{"mould", test.mould_wall}, {"table", test.table_wall}};
+}
 
 /// Pours the grains into the mould. Tests of one laboratory file with the same seed and key share the packing.
-std::shared_ptr<const Packing> prepare(const SlumpTest& test, const RunOptions& options);
+inline std::shared_ptr<const Packing> prepare(const SlumpTest& test, const RunOptions& options) {
+  return fill_mould(test, options);
+}
 std::string preparation_key(const SlumpTest& test);
 
 inline constexpr std::array<Named<HeightReading>, 2> height_readings{
@@ -136,7 +143,11 @@ void describe_test(auto& fields, SlumpTest& test) {
                 [&](auto& wall) { describe_wall(wall, test.table_wall); });
 }
 
-SlumpTest default_test(const SlumpTest&);
+inline SlumpTest default_test(const SlumpTest&) {
+  SlumpTest test;
+  test.drop.emplace();
+  return test;
+}
 
 /// Density of a grain for which the mould has the measured bulk density.
 std::optional<double> grain_density_of(const SlumpTest& test, const Readings& means);
@@ -153,23 +164,32 @@ std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun>
 double default_tolerance(const SlumpTest& test, const Measurement& measured);
 
 /// Diameter of the narrower end of the mould, or its height if that is less.
-std::optional<double> narrowest_opening_m(const SlumpTest& test);
+inline std::optional<double> narrowest_opening_m(const SlumpTest& test) {
+  return std::min(2 * narrower_radius_m(test.mould), test.mould.height_m);
+}
 
 /// The height alone does not identify friction and strength; friction affects the width.
 std::string unseen_by(const SlumpTest& test, std::span<const std::string_view> readings,
                       std::span<const std::string_view> parameters);
 
 /// From fresh foams to heavy concretes, from a small tube to the cone for dam concrete.
-std::vector<Experience> experience_of(const SlumpTest& test);
+inline std::vector<Experience> experience_of(const SlumpTest& test) {
+  return {{"material.bulk_density_kg_m3", test.bulk_density_kg_m3, 400, 5000},
+          {"apparatus.mould.height_mm", mm * test.mould.height_m, 40, 600}};
+}
 
 /// Conditions for which a fit in this test is valid, for cards, and as text.
 nlohmann::ordered_json conditions_of(const SlumpTest& test);
 std::string conditions_in_words(const SlumpTest& test);
 
 /// Shift of the top (`shear_index`): EN 12350-2 and ASTM C143 require tests of sheared-off heaps to be repeated.
-std::optional<double> rejection_index(const SlumpTest& test, const Readings& run);
+inline std::optional<double> rejection_index(const SlumpTest& test, const Readings& run) {
+  return shear_index(test, run);
+}
 
-std::string_view rejected_runs(const SlumpTest& test);
+inline std::string_view rejected_runs(const SlumpTest&) {
+  return "heaps sheared off";
+}
 
 std::string remarks_on(const SlumpTest& test, std::span<const Readings> runs);
 
