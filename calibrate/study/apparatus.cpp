@@ -289,11 +289,6 @@ void read_grains(ObjectReader& document, Test& test, Need need) {
       R"(e.g. {"distribution": "uniform", "smallest_mm": 6, "largest_mm": 10})");
 }
 
-bool values_are_good(const Faults& faults, std::size_t first) {
-  return std::all_of(faults.begin() + static_cast<std::ptrdiff_t>(first), faults.end(),
-                     [](const Fault& fault) { return fault.what == unknown_key; });
-}
-
 Result<Apparatus> apparatus_from_json(const json& document) {
   Faults faults;
   if (!has_format(document, "pastefit-rig-1", faults)) return faults;

@@ -59,7 +59,4 @@ std::optional<Apparatus> read_apparatus(ObjectReader& document, Test& test,
 void read_material(ObjectReader& document, Test& test, const std::function<void(ObjectReader& material)>& further = {});
 void read_grains(ObjectReader& document, Test& test, Need need);
 
-/// True if every value could be read: the faults from index `first` on are unknown keys only.
-bool values_are_good(const Faults& faults, std::size_t first);
-
 }  // namespace pastefit

@@ -102,6 +102,12 @@ void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats)
           "leave out the readings of heaps that sheared off, or count them in \"repeats\"");
 }
 
+/// True if every value could be read: the faults from index `first` on are unknown keys only.
+bool values_are_good(const Faults& faults, std::size_t first) {
+  return std::all_of(faults.begin() + static_cast<std::ptrdiff_t>(first), faults.end(),
+                     [](const Fault& fault) { return fault.what == unknown_key; });
+}
+
 /// Note on a preset beside the file that names it: "the preset abrams is /mine/apparatus/abrams.json, not the shipped
 /// one"; empty for a shipped preset.
 std::string note_on_preset(const Apparatus& preset) {

@@ -123,12 +123,6 @@ std::vector<StudyReading> readings_of(const Study& study) {
   return out;
 }
 
-Fault no_such_test(const std::string& name, const std::vector<std::string>& names) {
-  const std::string known = listed(names);
-  return {"--test " + printable(name), "there is no such test",
-          known.empty() ? "leave it out: the only test has no name" : "one of: " + known};
-}
-
 std::vector<StudyTest> read_tests(ObjectReader& document, const LabReading& labs) {
   std::vector<StudyTest> tests;
   if (!document.has("tests")) {

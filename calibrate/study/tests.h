@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/text.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {
@@ -29,8 +30,6 @@ std::vector<StudyReading> readings_of(const Study& study);
 /// Indices of the fitted, or of the held-out tests.
 std::vector<std::size_t> tests_of(const Study& study, bool hold_out);
 
-Fault no_such_test(const std::string& name, const std::vector<std::string>& names);
-
 /// How to read the laboratory files of a study.
 struct LabReading {
   std::filesystem::path folder;  ///< of the study
@@ -50,7 +49,9 @@ Result<std::size_t> place_of_test(const auto& tests, const std::string& name) {
     if (test.name == name) return names.size();
     names.push_back(test.name);
   }
-  return no_such_test(name, names);
+  const std::string known = listed(names);
+  return Fault{"--test " + printable(name), "there is no such test",
+               known.empty() ? "leave it out: the only test has no name" : "one of: " + known};
 }
 
 /// Everything that affects the search, as JSON text: the study without title and budget, and its laboratory files.
