@@ -114,20 +114,6 @@ Fault contradiction(const SlumpTest& test, const Heap& heap) {
               (wide ? "reading of another test" : "radius that was given as a width") + ", and at the mould"};
 }
 
-}  // namespace
-
-double cone_width_mm(const SlumpTest& test, double height_mm) {
-  return 2 * std::sqrt(3e9 * volume_m3(test.mould) / (std::numbers::pi * height_mm));
-}
-
-bool gives_flow_in_percent(const SlumpTest& test) {
-  constexpr double drop_mm = 12.7;
-  return test.drop && test.drop->motion == TableMotion::vertical &&
-         std::abs(mm * test.drop->lift_height_m - drop_mm) < 0.1;
-}
-
-namespace {
-
 /// Note on a very small slump, which may be in inches or centimetres.
 std::string small_slump(const SlumpTest& test, const Measurement& height) {
   constexpr double small = 0.08;  // of the mould's height
@@ -204,6 +190,16 @@ void check_cake(const SlumpTest& test, const Measurement& width, ReadingCheck& c
 }
 
 }  // namespace
+
+double cone_width_mm(const SlumpTest& test, double height_mm) {
+  return 2 * std::sqrt(3e9 * volume_m3(test.mould) / (std::numbers::pi * height_mm));
+}
+
+bool gives_flow_in_percent(const SlumpTest& test) {
+  constexpr double drop_mm = 12.7;
+  return test.drop && test.drop->motion == TableMotion::vertical &&
+         std::abs(mm * test.drop->lift_height_m - drop_mm) < 0.1;
+}
 
 ReadingCheck check_readings(const SlumpTest& test, std::span<const Measurement> measurements) {
   ReadingCheck check;

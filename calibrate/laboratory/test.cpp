@@ -22,6 +22,21 @@ void each_kind(const auto& visit) {
   all(std::make_index_sequence<std::variant_size_v<Test>>{});
 }
 
+/// Converts a fault of a field in SI to the unit of a file's key: millimetres, degrees, or a diameter.
+Fault in_unit_of(std::string_view field, Fault fault) {
+  const std::string& key = fault.where;
+  if (!fault.range) return fault;
+  const bool in_mm = key.find("_mm") != std::string::npos && field.find("_mm") == std::string_view::npos;
+  const bool doubled = key.find("diameter") != std::string::npos && field.find("radius") != std::string_view::npos;
+  const bool in_degrees = key.ends_with("_deg");
+  const double scale = (in_mm ? mm : in_degrees ? degrees : 1) * (doubled ? 2 : 1);
+  OutOfRange range = *fault.range;
+  for (double* number : {&range.value, &range.smallest, &range.largest}) *number *= scale;
+  if (in_mm) range.unit = "m" + range.unit;
+  if (in_degrees) range.unit = "degrees";
+  return FieldChecker::fault_of(key, std::move(range));
+}
+
 }  // namespace
 
 void read_apparatus(ObjectReader& apparatus, Test& test, Need need) {
@@ -42,25 +57,6 @@ bool is_rejected(const Test& test, const Readings& run) {
 Faults validate(const Test& test) {
   return std::visit([](const auto& one) { return validate(one); }, test);
 }
-
-namespace {
-
-/// Converts a fault of a field in SI to the unit of a file's key: millimetres, degrees, or a diameter.
-Fault in_unit_of(std::string_view field, Fault fault) {
-  const std::string& key = fault.where;
-  if (!fault.range) return fault;
-  const bool in_mm = key.find("_mm") != std::string::npos && field.find("_mm") == std::string_view::npos;
-  const bool doubled = key.find("diameter") != std::string::npos && field.find("radius") != std::string_view::npos;
-  const bool in_degrees = key.ends_with("_deg");
-  const double scale = (in_mm ? mm : in_degrees ? degrees : 1) * (doubled ? 2 : 1);
-  OutOfRange range = *fault.range;
-  for (double* number : {&range.value, &range.smallest, &range.largest}) *number *= scale;
-  if (in_mm) range.unit = "m" + range.unit;
-  if (in_degrees) range.unit = "degrees";
-  return FieldChecker::fault_of(key, std::move(range));
-}
-
-}  // namespace
 
 Faults validate_in_file_words(const Test& test) {
   static const std::vector<FilePlace> specimen{{"bulk_density_kg_m3", "material.bulk_density_kg_m3"},

@@ -54,6 +54,60 @@ constexpr std::array<PlausibleRange, 2> plausible{{
      "these grains hardly roll; it stands in for something that the model lacks, their shape for instance"},
 }};
 
+/// The place of a parameter in a list of values.
+std::size_t parameter_at(std::string_view name) {
+  const auto kind = std::ranges::find(kinds, name, &ParameterKind::name);
+  assert(kind != kinds.end());
+  return static_cast<std::size_t>(kind - kinds.begin());
+}
+
+/// Of a surface's parameter a law names what follows the surface's name.
+template <class Law>
+bool names(Law, std::string_view parameter) {
+  return std::ranges::any_of(Law::parameters, [&](std::string_view own) { return parameter.ends_with(own); });
+}
+
+/// A choice of a study, the laws it is made from, and which of them have a parameter.
+struct Choice {
+  std::string_view key;     ///< in "contact"
+  std::string_view chosen;  ///< its word
+  std::vector<std::string_view> having;
+  bool had() const { return std::ranges::count(having, chosen) > 0; }
+};
+
+template <class... Laws, class Name>
+Choice choice_of(std::string_view key, TypeList<Laws...> laws, Name chosen, std::string_view parameter) {
+  Choice choice{key, with_law(laws, chosen, [](auto law) { return law.word; }), {}};
+  const auto look = [&](auto law) {
+    if (names(law, parameter)) choice.having.push_back(law.word);
+  };
+  (look(Laws{}), ...);
+  return choice;
+}
+
+std::array<Choice, 3> choices_of(const ContactModel& laws, std::string_view parameter) {
+  return {choice_of("attraction", Attractions{}, laws.bridge.shape, parameter),
+          choice_of("normal", NormalLaws{}, laws.normal, parameter),
+          choice_of("rolling_model", RollingLaws{}, laws.rolling, parameter)};
+}
+
+/// Bridges that form by touch ask nothing of a film.
+bool lacks_film(const ContactModel& laws, std::string_view parameter) {
+  return parameter == AcrossGap::film_parameter && laws.bridge.formation == BridgeFormation::touch;
+}
+
+/// The surface whose parameter it is; empty if it is none's. A parameter of the grains has no surface before it.
+std::string_view surface_in(std::string_view parameter) {
+  for (const std::string_view word : kinds_of_tests()) {
+    Test test = *test_of_kind(word);
+    for (const Surface& surface : surfaces_of(test)) {
+      const bool of_it = parameter.starts_with(surface.name) && parameter.substr(surface.name.size()).starts_with('_');
+      if (of_it) return parameter.substr(0, surface.name.size());
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 std::span<const ParameterKind> parameter_kinds() {
@@ -104,74 +158,12 @@ std::vector<double> values_at(const Study& study, std::span<const double> unit_p
   return values;
 }
 
-namespace {
-
-/// The place of a parameter in a list of values.
-std::size_t parameter_at(std::string_view name) {
-  const auto kind = std::ranges::find(kinds, name, &ParameterKind::name);
-  assert(kind != kinds.end());
-  return static_cast<std::size_t>(kind - kinds.begin());
-}
-
-/// Of a surface's parameter a law names what follows the surface's name.
-template <class Law>
-bool names(Law, std::string_view parameter) {
-  return std::ranges::any_of(Law::parameters, [&](std::string_view own) { return parameter.ends_with(own); });
-}
-
-/// A choice of a study, the laws it is made from, and which of them have a parameter.
-struct Choice {
-  std::string_view key;     ///< in "contact"
-  std::string_view chosen;  ///< its word
-  std::vector<std::string_view> having;
-  bool had() const { return std::ranges::count(having, chosen) > 0; }
-};
-
-template <class... Laws, class Name>
-Choice choice_of(std::string_view key, TypeList<Laws...> laws, Name chosen, std::string_view parameter) {
-  Choice choice{key, with_law(laws, chosen, [](auto law) { return law.word; }), {}};
-  const auto look = [&](auto law) {
-    if (names(law, parameter)) choice.having.push_back(law.word);
-  };
-  (look(Laws{}), ...);
-  return choice;
-}
-
-std::array<Choice, 3> choices_of(const ContactModel& laws, std::string_view parameter) {
-  return {choice_of("attraction", Attractions{}, laws.bridge.shape, parameter),
-          choice_of("normal", NormalLaws{}, laws.normal, parameter),
-          choice_of("rolling_model", RollingLaws{}, laws.rolling, parameter)};
-}
-
-/// Bridges that form by touch ask nothing of a film.
-bool lacks_film(const ContactModel& laws, std::string_view parameter) {
-  return parameter == AcrossGap::film_parameter && laws.bridge.formation == BridgeFormation::touch;
-}
-
-}  // namespace
-
 bool has_parameter(const ContactModel& laws, std::string_view name) {
   if (lacks_film(laws, name)) return false;
   const auto choices = choices_of(laws, name);
   return std::ranges::any_of(choices, &Choice::had) ||
          std::ranges::all_of(choices, [](const Choice& choice) { return choice.having.empty(); });
 }
-
-namespace {
-
-/// The surface whose parameter it is; empty if it is none's. A parameter of the grains has no surface before it.
-std::string_view surface_in(std::string_view parameter) {
-  for (const std::string_view word : kinds_of_tests()) {
-    Test test = *test_of_kind(word);
-    for (const Surface& surface : surfaces_of(test)) {
-      const bool of_it = parameter.starts_with(surface.name) && parameter.substr(surface.name.size()).starts_with('_');
-      if (of_it) return parameter.substr(0, surface.name.size());
-    }
-  }
-  return {};
-}
-
-}  // namespace
 
 bool acts_in(const Test& test, std::string_view name) {
   const std::string_view surface = surface_in(name);
