@@ -75,7 +75,7 @@ TEST_CASE("the strengths of the shipped cards lie where their heights say") {
     Readings measured;
     for (const CardReading& one : card.tests[0].readings)
       if (one.measured) measured.set(one.name, *one.measured);
-    const auto likely = likely_strength_pa(card.tests[0].test, measured);
+    const auto likely = likely_strength_pa(std::get<SlumpTest>(card.tests[0].test), measured);
     REQUIRE(likely);
     const double strength_pa = card.material.parameters.front().value;
     CHECK(strength_pa > likely->lowest);

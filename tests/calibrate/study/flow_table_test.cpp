@@ -56,7 +56,7 @@ TEST_CASE("the jolting tables have the drops and the rhythm of their standards")
     CHECK(test.drop->drops * test.drop->period_s == Approx(row.whole_s));
     CHECK(test.drop->length_m == test.table_length_m);
     REQUIRE(read.value().readings.size() == 2);
-    CHECK(read.value().readings[1].key == "after_drops.spread_mm");
+    CHECK(read.value().readings[1].reading == "after_drops.spread_mm");
     CHECK(grains_needed(read.value().test) > kFewGrains);
   }
 }
