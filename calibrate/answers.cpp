@@ -81,7 +81,7 @@ TrainingData StudyAnswers::evidence(std::span<const Response> history) const {
 }
 
 std::optional<Card> StudyAnswers::card(const Calibration& found, const EvaluationCounts& counts) const {
-  return card_of(*study_, found, study_->search, baselines_of(*study_, shown_of(found), store()), counts, study_file_);
+  return card_of(*study_, found, store(), counts, study_file_);
 }
 
 }  // namespace pastefit

@@ -53,8 +53,8 @@ void judge(CardTest& test) {
   }
 }
 
-CardTest card_test_of(const Study& study, std::size_t index, const std::vector<double>& values,
-                      std::uint64_t first_packing, const Baseline& baseline) {
+CardTest card_test_of(const Study& study, std::size_t index, const std::vector<double>& values, const Response& shown,
+                      const Store& store) {
   const auto& test = study.tests[index];
   CardTest out;
   out.name = test.name;
@@ -66,10 +66,12 @@ CardTest card_test_of(const Study& study, std::size_t index, const std::vector<d
   const auto add_note = [&](const std::string& note) { out.lab.notes += (out.lab.notes.empty() ? "" : "; ") + note; };
   if (!test.lab.note.empty()) add_note(test.lab.note);
   if (test.lab.repeats.sheared > 0) add_note(sheared_in_words(test.lab.repeats));
-  out.test = test_with(test.lab.test, values, first_packing);
-  if (baseline.runs.empty()) return out;
-  out.readings = card_readings(study, index, baseline.runs);
-  out.baseline = baseline;
+  out.test = test_with(test.lab.test, values, shown.packings.at(0));
+  auto runs = known_runs(study, index, shown.point, shown.packings, store);
+  if (runs.empty()) return out;  // not simulated
+  out.baseline = {store.identity().program, machine_type(), {}};
+  for (std::size_t i = 0; i < runs.size(); ++i) out.baseline.runs.push_back({shown.packings[i], std::move(runs[i])});
+  out.readings = card_readings(study, index, out.baseline.runs);
   if (out.hold_out) judge(out);
   return out;
 }
@@ -93,18 +95,8 @@ const Response& shown_of(const Calibration& calibration) {
   return fresh ? calibration.confirmation : calibration.best;
 }
 
-std::vector<Baseline> baselines_of(const Study& study, const Response& candidate, const Store& store) {
-  std::vector<Baseline> baselines;
-  for (std::size_t test = 0; test < study.tests.size(); ++test) {
-    Baseline& baseline = baselines.emplace_back(Baseline{store.identity().program, machine_type(), {}});
-    auto runs = known_runs(study, test, candidate.point, candidate.packings, store);
-    for (std::size_t i = 0; i < runs.size(); ++i) baseline.runs.push_back({candidate.packings[i], std::move(runs[i])});
-  }
-  return baselines;
-}
-
-Card card_of(const Study& study, const Calibration& calibration, const SearchOptions& options,
-             const std::vector<Baseline>& baselines, const EvaluationCounts& counts, const std::string& study_file) {
+Card card_of(const Study& study, const Calibration& calibration, const Store& store, const EvaluationCounts& counts,
+             const std::string& study_file) {
   const Response& shown = shown_of(calibration);
   const bool fresh = &shown == &calibration.confirmation;
   const auto values = values_at(study, coordinates(shown.point));
@@ -112,7 +104,7 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
   Card card;
   card.title = study.title;
   for (std::size_t i = 0; i < study.tests.size(); ++i)
-    card.tests.push_back(card_test_of(study, i, values, shown.packings.at(0), baselines.at(i)));
+    card.tests.push_back(card_test_of(study, i, values, shown, store));
   card.material = material_of(study, values, card.tests.front());
 
   const double share = rejected_share_of(study);
@@ -120,17 +112,12 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
   card.confirmation = {shown.packings, fresh, shown.error, fresh && verdict == Verdict::meets,
                        fresh && verdict == Verdict::refuted};
   if (fresh) card.confirmation.rejected_share = share;
-  card.search = {options.strategy,
-                 std::string(name_of(calibration.status)),
-                 calibration.reason,
-                 options.seed,
-                 calibration.search.packings,
-                 options.budget_simulations,
-                 counts.known(),
-                 {},
-                 calibration.coarse_simulations};
+  card.search = {
+      study.search.strategy,         std::string(name_of(calibration.status)), calibration.reason, study.search.seed,
+      calibration.search.packings,   study.search.budget_simulations,          counts.known(),     {},
+      calibration.coarse_simulations};
   for (const auto& [reason, count] : counts.failures) card.search.failures[std::string(name_of(reason))] = count;
-  card.provenance = {study_file, study.hash, baselines.at(0).program, study.settings};
+  card.provenance = {study_file, study.hash, store.identity().program, study.settings};
   return card;
 }
 

@@ -92,10 +92,7 @@ TEST_CASE("a hold-out is judged by the noise of both sides, and only what counts
     const std::vector<UnitPoint> points{at(0.5, 0.5)};
     calibration.best = calibration.search = calibration.confirmation =
         objective.evaluate(points, std::vector<std::uint64_t>{1, 2, 3, 4})[0];
-    const auto card = [&] {
-      return card_of(laboratory.study, calibration, laboratory.study.search,
-                     baselines_of(laboratory.study, shown_of(calibration), store), objective.counts(), "study.json");
-    };
+    const auto card = [&] { return card_of(laboratory.study, calibration, store, objective.counts(), "study.json"); };
     REQUIRE(card().tests.size() == 2);
     CHECK(card().tests[1].readings.empty());  // not predicted yet
     CHECK_FALSE(card().tests[1].within_noise);

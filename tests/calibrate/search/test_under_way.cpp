@@ -99,10 +99,7 @@ TEST_CASE("the same study gives the same history and card, whatever the threads,
       SimulationObjective objective(study, store, laboratory.options);
       const Calibration calibration = search(objective, study.search);
       CHECK(calibration.simulations > 40);
-      const std::string card =
-          to_json(card_of(study, calibration, study.search, baselines_of(study, shown_of(calibration), store),
-                          objective.counts(), "study.json"))
-              .dump();
+      const std::string card = to_json(card_of(study, calibration, store, objective.counts(), "study.json")).dump();
       std::vector<UnitPoint> way;
       for (const Response& response : calibration.history) way.push_back(response.point);
       if (threads == 1) {
