@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/study/apparatus.h"
@@ -77,8 +78,7 @@ auto read_with(json document, const SceneSettings& settings, const std::filesyst
                auto from_json) {
   for (const auto& setting : settings.others) apply(setting, document, faults);
   auto result = from_json(document);
-  if (!result.ok())
-    for (auto& fault : in_file(result.faults(), file)) faults.push_back(std::move(fault));
+  if (!result.ok()) append(faults, in_file(result.faults(), file));
   return result;
 }
 
@@ -99,9 +99,8 @@ Test with_parameters(const Test& test, std::vector<double> values, const SceneSe
 std::optional<std::size_t> chosen(const auto& tests, const std::string& name, Faults& faults) {
   if (name.empty()) return 0;
   const auto place = place_of_test(tests, name);
-  if (place.ok()) return place.value();
-  faults.insert(faults.end(), place.faults().begin(), place.faults().end());
-  return std::nullopt;
+  append(faults, place);
+  return place.ok() ? std::optional(place.value()) : std::nullopt;
 }
 
 /// Notes on a laboratory file for the user.
@@ -119,8 +118,9 @@ bool is_of_study(const Setting& setting) {
   return std::ranges::count(own, first) > 0;
 }
 
-std::optional<FoundScene> study_scene(const json& document, const SceneSettings& settings, const std::string& name,
-                                      const std::filesystem::path& file, Faults& faults) {
+/// As all that follow, adds a fault if there is no such scene; the result is then of no use.
+FoundScene study_scene(const json& document, const SceneSettings& settings, const std::string& name,
+                       const std::filesystem::path& file, Faults& faults) {
   bool changed = false;
   StudyChanges changes;
   changes.of_study = [&](json& study) {
@@ -134,30 +134,28 @@ std::optional<FoundScene> study_scene(const json& document, const SceneSettings&
       if (!is_of_study(setting)) apply(setting, lab, faults);
   };
   const auto study = study_from_json(document, file, changes);
-  if (!study.ok()) {
-    faults.insert(faults.end(), study.faults().begin(), study.faults().end());
-    return std::nullopt;
-  }
+  append(faults, study);
+  if (!study.ok()) return {};
   const auto place = chosen(study.value().tests, name, faults);
-  if (!place) return std::nullopt;
+  if (!place) return {};
   const Lab& lab = study.value().tests[*place].lab;
   const std::vector<double> middle(static_cast<std::size_t>(free_count(study.value())), 0.5);
-  return FoundScene{with_parameters(lab.test, values_at(study.value(), middle), settings, faults), notes_of(lab)};
+  return {with_parameters(lab.test, values_at(study.value(), middle), settings, faults), notes_of(lab)};
 }
 
-std::optional<FoundScene> card_scene(const json& document, const SceneSettings& settings, const std::string& name,
-                                     const std::filesystem::path& file, Faults& faults) {
+FoundScene card_scene(const json& document, const SceneSettings& settings, const std::string& name,
+                      const std::filesystem::path& file, Faults& faults) {
   const auto card = read_with(document, settings, file, faults, card_from_json);
-  if (!card.ok()) return std::nullopt;
+  if (!card.ok()) return {};
   const auto place = chosen(card.value().tests, name, faults);
-  if (!place) return std::nullopt;
+  if (!place) return {};
   const Test& test = card.value().tests[*place].test;
-  if (settings.parameters.empty()) return FoundScene{test, {}};
-  return FoundScene{with_parameters(test, values_of(card.value().material), settings, faults), {}};
+  if (settings.parameters.empty()) return {test, {}};
+  return {with_parameters(test, values_of(card.value().material), settings, faults), {}};
 }
 
-std::optional<FoundScene> test_scene(const json& document, const SceneSettings& settings, const std::string& name,
-                                     const std::filesystem::path& file, Faults& faults) {
+FoundScene test_scene(const json& document, const SceneSettings& settings, const std::string& name,
+                      const std::filesystem::path& file, Faults& faults) {
   const auto format = document.is_object() ? document.value("format", json()) : json();
   if (format == "pastefit-study-1") return study_scene(document, settings, name, file, faults);
   if (is_card(document)) return card_scene(document, settings, name, file, faults);
@@ -165,13 +163,12 @@ std::optional<FoundScene> test_scene(const json& document, const SceneSettings& 
   if (format == "pastefit-lab-1") {
     const auto lab = read_with(document, settings, file, faults,
                                [&](const json& content) { return lab_from_json(content, file.parent_path()); });
-    if (lab.ok())
-      return FoundScene{with_parameters(lab.value().test, default_values(), settings, faults), notes_of(lab.value())};
-    return std::nullopt;
+    if (!lab.ok()) return {};
+    return {with_parameters(lab.value().test, default_values(), settings, faults), notes_of(lab.value())};
   }
   if (format == "pastefit-rig-1") {
     const auto apparatus = read_with(document, settings, file, faults, apparatus_from_json);
-    if (!apparatus.ok()) return std::nullopt;
+    if (!apparatus.ok()) return {};
     FoundScene found{with_parameters(apparatus.value().test, default_values(), settings, faults), {}};
     if (!apparatus.value().caution.empty()) found.notes.push_back(apparatus.value().caution);
     return found;
@@ -179,7 +176,7 @@ std::optional<FoundScene> test_scene(const json& document, const SceneSettings& 
   faults.push_back({file.string() + ": format", "is " + format.dump(),
                     "\"pastefit-study-1\", a card (\"pastefit-card-6\"), \"pastefit-lab-1\", "
                     "\"pastefit-rig-1\" or \"pastefit-impact-1\""});
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
@@ -197,24 +194,23 @@ Result<FoundScene> scene_from_json(const json& document, const std::filesystem::
     return FoundScene{impact.value(), {}};
   }
   take_out_slips(settings, document, faults);
-  auto found = test_scene(document, settings, name, file, faults);
-  if (found && faults.empty()) faults = in_file(validate_in_file_words(std::get<Test>(found->scene)), file);
+  FoundScene found = test_scene(document, settings, name, file, faults);
+  if (faults.empty()) faults = in_file(validate_in_file_words(std::get<Test>(found.scene)), file);
   if (!faults.empty()) return faults;
-  return std::move(*found);
+  return found;
 }
 
 Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& texts,
                               const std::string& name) {
-  Faults unread;
-  auto document = read_json(file, unread);
-  Faults faults;
+  Faults faults, unread;
+  const auto document = read_json(file, unread);
   if (!document) (void)read_scene_settings(texts, faults);
-  faults.insert(faults.end(), unread.begin(), unread.end());
+  append(faults, std::move(unread));
   if (!document) return faults;
   auto found = scene_from_json(*document, file, texts, name);
-  if (found.ok() && faults.empty()) return found;
-  if (!found.ok()) faults.insert(faults.end(), found.faults().begin(), found.faults().end());
-  return faults;
+  append(faults, found);
+  if (!faults.empty()) return faults;
+  return found;
 }
 
 Outcome simulate(const Scene& scene, const RunOptions& options) {
