@@ -4,8 +4,8 @@
 #include <set>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/json_reader.h"
-#include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/card/card_description.h"
 

@@ -8,11 +8,11 @@
 #include <system_error>
 #include <utility>
 
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/machine.h"
 #include "calibrate/base/refusal.h"
-#include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/measurement.h"

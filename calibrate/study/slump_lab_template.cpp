@@ -1,7 +1,7 @@
 #include <sstream>
 #include <vector>
 
-#include "calibrate/base/template_lines.h"
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/slump.h"

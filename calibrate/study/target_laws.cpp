@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "calibrate/base/template_lines.h"
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/text.h"
 
 namespace pastefit {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "calibrate/base/template_lines.h"
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/slump_sheet.h"
