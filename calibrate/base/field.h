@@ -32,13 +32,14 @@ struct Key {
   operator std::string_view() const { return name; }
 };
 
-/// Presence of a key in an object.
+/// Presence of a key in an object. The alternatives that follow convert to it for a reader.
 enum class Need { required, optional };
 
 /// Alternative to `Need`: an optional key that is omitted for the default value, which the variable has before reading.
 template <class T>
 struct Default {
   T value;
+  operator Need() const { return Need::optional; }
 };
 template <class T>
 Default(T) -> Default<T>;
@@ -46,25 +47,13 @@ Default(T) -> Default<T>;
 /// Alternative to `Need`: a key that is required and written only together with something else.
 struct With {
   bool there;
+  operator Need() const { return there ? Need::required : Need::optional; }
 };
 
 /// Alternative to `Need`: an optional key that is written only if `holds`.
 struct WrittenIf {
   bool holds;
-};
-
-/// Conversion of all these to `Need`, for a reader.
-class Presence {
- public:
-  Presence(Need need) : need_(need) {}
-  template <class T>
-  Presence(const Default<T>&) {}
-  Presence(With with) : need_(with.there ? Need::required : Need::optional) {}
-  Presence(WrittenIf) {}
-  operator Need() const { return need_; }
-
- private:
-  Need need_ = Need::optional;
+  operator Need() const { return Need::optional; }
 };
 
 /// Word in a file, and its value.

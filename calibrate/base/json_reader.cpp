@@ -110,8 +110,8 @@ void ObjectReader::fault(std::string_view key, std::string what, std::string rem
   faults_.push_back({place(key), std::move(what), std::move(remedy)});
 }
 
-bool ObjectReader::number(const Key& key, double& target, const Range& range, Presence presence, double per_si) {
-  const json* value = find(key, presence);
+bool ObjectReader::number(const Key& key, double& target, const Range& range, Need need, double per_si) {
+  const json* value = find(key, need);
   if (!value || !check_number(place(key), *value, range.judged_later ? Range{} : range)) return false;
   target = value->get<double>() / per_si;
   return true;
@@ -126,8 +126,8 @@ bool ObjectReader::nullable_number(const Key& key, std::optional<double>& target
   return true;
 }
 
-bool ObjectReader::integer(const Key& key, int& target, int smallest, int largest, Presence presence) {
-  const json* value = find(key, presence);
+bool ObjectReader::integer(const Key& key, int& target, int smallest, int largest, Need need) {
+  const json* value = find(key, need);
   if (!value) return false;
   const double number = value->is_number() ? value->get<double>() : 0.5;
   if (number != std::floor(number) || number < smallest || number > largest) {
@@ -156,9 +156,9 @@ bool ObjectReader::integer(const Key& key, std::uint64_t& target, Need need) {
 }
 
 template <class T>
-bool ObjectReader::value_of_kind(const Key& key, T& target, Presence presence, bool (json::*is_kind)() const noexcept,
+bool ObjectReader::value_of_kind(const Key& key, T& target, Need need, bool (json::*is_kind)() const noexcept,
                                  const char* remedy) {
-  const json* value = find(key, presence);
+  const json* value = find(key, need);
   if (!value) return false;
   if (!(value->*is_kind)()) {
     fault(key, "is " + text_of(*value), remedy);
@@ -168,12 +168,12 @@ bool ObjectReader::value_of_kind(const Key& key, T& target, Presence presence, b
   return true;
 }
 
-bool ObjectReader::text(const Key& key, std::string& target, Presence presence) {
-  return value_of_kind(key, target, presence, &json::is_string, "a text in quotes");
+bool ObjectReader::text(const Key& key, std::string& target, Need need) {
+  return value_of_kind(key, target, need, &json::is_string, "a text in quotes");
 }
 
-bool ObjectReader::flag(const Key& key, bool& target, Presence presence) {
-  return value_of_kind(key, target, presence, &json::is_boolean, "true or false");
+bool ObjectReader::flag(const Key& key, bool& target, Need need) {
+  return value_of_kind(key, target, need, &json::is_boolean, "true or false");
 }
 
 bool ObjectReader::numbers(const Key& key, std::vector<double>& target, const Range& range, Need need,

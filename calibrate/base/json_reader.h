@@ -77,7 +77,7 @@ class ObjectReader {
   void fault(std::string_view key, std::string what, std::string remedy);
 
   /// target = number in the file / `per_si`, e.g. 1000 for millimetres to metres. `range`: in the key's unit.
-  bool number(const Key& key, double& target, const Range& range, Presence presence, double per_si = 1);
+  bool number(const Key& key, double& target, const Range& range, Need need, double per_si = 1);
   /// Optional key; written if there is a value.
   bool optional_number(const Key& key, std::optional<double>& target, const Range& range);
   /// Derived on writing; checked, but not stored.
@@ -90,10 +90,10 @@ class ObjectReader {
   void derived_object(const Key& key, auto, auto) { known(key); }
   /// Null, or an absent optional key, resets the target.
   bool nullable_number(const Key& key, std::optional<double>& target, const Range& range, Need need);
-  bool integer(const Key& key, int& target, int smallest, int largest, Presence presence);
+  bool integer(const Key& key, int& target, int smallest, int largest, Need need);
   bool integer(const Key& key, std::uint64_t& target, Need need);
-  bool text(const Key& key, std::string& target, Presence presence);
-  bool flag(const Key& key, bool& target, Presence presence);
+  bool text(const Key& key, std::string& target, Need need);
+  bool flag(const Key& key, bool& target, Need need);
   /// List of at least `least` and, unless `most` is 0, at most `most` numbers.
   bool numbers(const Key& key, std::vector<double>& target, const Range& range, Need need, std::size_t least,
                std::size_t most = 0);
@@ -104,17 +104,17 @@ class ObjectReader {
   /// List of integers from 0, exact up to 64 bits (seeds).
   bool integers(const Key& key, std::vector<std::uint64_t>& target, Need need);
   template <class T, std::size_t N>
-  bool choice(const Key& key, auto& target, const std::array<Named<T>, N>& words, Presence presence) {
+  bool choice(const Key& key, auto& target, const std::array<Named<T>, N>& words, Need need) {
     std::array<std::string_view, N> names;
     for (std::size_t n = 0; n < N; ++n) names[n] = words[n].name;
-    const std::optional<std::size_t> found = word(key, names, presence);
+    const std::optional<std::size_t> found = word(key, names, need);
     if (found) target = words[*found].value;
     return found.has_value();
   }
   /// Calls `body(ObjectReader&)` for a nested object. `remedy`: advice for other values; default: the keys that `body`
   /// reads.
-  bool object(const Key& key, Presence presence, auto body, std::string_view remedy = "") {
-    const nlohmann::json* value = find_object(key, presence, remedy, body);
+  bool object(const Key& key, Need need, auto body, std::string_view remedy = "") {
+    const nlohmann::json* value = find_object(key, need, remedy, body);
     if (!value) return false;
     ObjectReader reader(*value, place(key), faults_);
     body(reader);
@@ -151,8 +151,8 @@ class ObjectReader {
   }
   /// Object with arbitrary keys, each described by `body(fields, Key(one.*name), one)`.
   template <class T>
-  bool entries(const Key& key, std::vector<T>& target, std::string T::*name, Presence presence, auto body) {
-    return object(key, presence, [&](ObjectReader& entries) {
+  bool entries(const Key& key, std::vector<T>& target, std::string T::*name, Need need, auto body) {
+    return object(key, need, [&](ObjectReader& entries) {
       for (const std::string& own : entries.keys()) {
         T& one = target.emplace_back();
         one.*name = own;
@@ -168,7 +168,7 @@ class ObjectReader {
  private:
   const nlohmann::json* find(std::string_view key, Need need);
   template <class T>
-  bool value_of_kind(const Key& key, T& target, Presence presence, bool (nlohmann::json::*is_kind)() const noexcept,
+  bool value_of_kind(const Key& key, T& target, Need need, bool (nlohmann::json::*is_kind)() const noexcept,
                      const char* remedy);
   template <class T>
   bool list_of_kind(const Key& key, std::vector<T>& target, Need need, bool (nlohmann::json::*is_kind)() const noexcept,

@@ -48,12 +48,12 @@ void ObjectSchema::pairs(const Key& key, const std::vector<std::array<double, 2>
   put(key, std::move(schema), need);
 }
 
-void ObjectSchema::put(const Key& key, Json schema, Presence presence) {
+void ObjectSchema::put(const Key& key, Json schema, Need need) {
   const std::string name(key.name);
   Json& property = object_["properties"][name] = Json::object();
   if (!key.meaning.empty()) property["description"] = key.meaning;
   for (auto& [word, value] : schema.items()) property[word] = std::move(value);
-  if (presence == Need::required) object_["required"].push_back(name);
+  if (need == Need::required) object_["required"].push_back(name);
 }
 
 Json ObjectSchema::defined(const std::string& name, Json object) {

@@ -22,9 +22,7 @@ class ObjectSchema {
   /// `object` becomes the schema; `shared` objects go to `definitions`.
   ObjectSchema(Json& object, Json& definitions);
 
-  void number(const Key& key, double, const Range& range, Presence presence, double = 1) {
-    put(key, number_in(range), presence);
-  }
+  void number(const Key& key, double, const Range& range, Need need, double = 1) { put(key, number_in(range), need); }
   void nullable_number(const Key& key, const std::optional<double>&, const Range& range, Need need) {
     put(key, or_null(number_in(range)), need);
   }
@@ -35,13 +33,13 @@ class ObjectSchema {
     optional_number(key, value, range);
   }
   void integer(const Key& key, std::uint64_t, Need need) { put(key, any_whole_number(), need); }
-  void integer(const Key& key, int, int smallest, int largest, Presence presence) {
-    put(key, {{"type", "integer"}, {"minimum", smallest}, {"maximum", largest}}, presence);
+  void integer(const Key& key, int, int smallest, int largest, Need need) {
+    put(key, {{"type", "integer"}, {"minimum", smallest}, {"maximum", largest}}, need);
   }
-  void text(const Key& key, std::string_view, Presence presence) { put(key, {{"type", "string"}}, presence); }
+  void text(const Key& key, std::string_view, Need need) { put(key, {{"type", "string"}}, need); }
   /// Text with a fixed value.
-  void constant(const Key& key, std::string_view value, Presence presence) { put(key, {{"const", value}}, presence); }
-  void flag(const Key& key, bool, Presence presence) { put(key, {{"type", "boolean"}}, presence); }
+  void constant(const Key& key, std::string_view value, Need need) { put(key, {{"const", value}}, need); }
+  void flag(const Key& key, bool, Need need) { put(key, {{"type", "boolean"}}, need); }
   void numbers(const Key& key, const std::vector<double>&, const Range& range, Need need, std::size_t least,
                std::size_t most = 0);
   void integers(const Key& key, const std::vector<std::uint64_t>&, Need need) {
@@ -53,12 +51,12 @@ class ObjectSchema {
   void pairs(const Key& key, const std::vector<std::array<double, 2>>&, const Range& first, const Range& second,
              Need need, std::size_t least);
   template <class Target, class T, std::size_t N>
-  void choice(const Key& key, const Target&, const std::array<Named<T>, N>& words, Presence presence) {
+  void choice(const Key& key, const Target&, const std::array<Named<T>, N>& words, Need need) {
     Json names = Json::array();
     for (const Named<T>& word : words) names.push_back(word.name);
-    put(key, key.schema.empty() ? Json{{"enum", names}} : Json{{"$ref", key.schema}}, presence);
+    put(key, key.schema.empty() ? Json{{"enum", names}} : Json{{"$ref", key.schema}}, need);
   }
-  void object(const Key& key, Presence presence, auto body) { put(key, described(body), presence); }
+  void object(const Key& key, Need need, auto body) { put(key, described(body), need); }
   template <class T, class Body>
   void nullable_object(const Key& key, const std::optional<T>&, Need need, Body body) {
     T any{};
@@ -78,10 +76,10 @@ class ObjectSchema {
     put(key, std::move(schema), need);
   }
   template <class T, class Body>
-  void entries(const Key& key, const std::vector<T>&, std::string T::*, Presence presence, Body body) {
+  void entries(const Key& key, const std::vector<T>&, std::string T::*, Need need, Body body) {
     T any{};
     const Json entry = described([&](ObjectSchema& inner) { body(inner, Key("NAME"), any); });
-    put(key, {{"type", "object"}, {"additionalProperties", entry.at("properties").at("NAME")}}, presence);
+    put(key, {{"type", "object"}, {"additionalProperties", entry.at("properties").at("NAME")}}, need);
   }
   /// Object with some of the keys that `body` describes, all alike.
   void known_entries(const Key& key, Need need, auto body) { put_known(key, described(body).at("properties"), need); }
@@ -91,7 +89,7 @@ class ObjectSchema {
   }
   void shared(std::string_view name) { shared_ = name; }
   /// Adds a property with a given schema, for objects with several forms.
-  void put(const Key& key, Json schema, Presence presence);
+  void put(const Key& key, Json schema, Need need);
   /// Adds a schema to the definitions, and returns a reference to it.
   Json defined(const std::string& name, Json schema);
   /// Schema of what `body(ObjectSchema&)` describes.
