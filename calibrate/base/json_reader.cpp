@@ -75,9 +75,6 @@ std::string text_of(const Range& range, std::string_view unit) {
   return "must be " + shown(range.smallest) + " to " + shown(range.largest) + end;
 }
 
-ObjectReader::ObjectReader(const json& value, std::string place, Faults& faults)
-    : object_(value), place_(std::move(place)), faults_(faults) {}
-
 ObjectReader::~ObjectReader() {
   for (const auto& [key, value] : object_.items()) {
     if (known_.contains(key)) continue;
@@ -85,10 +82,6 @@ ObjectReader::~ObjectReader() {
     if (remedy.empty()) remedy = did_you_mean(key, known_, "known here: " + listed(known_, in_quotes));
     faults_.push_back({joined(place_, printable(key)), std::string(unknown_key), std::move(remedy)});
   }
-}
-
-bool ObjectReader::has(std::string_view key) const {
-  return object_.contains(key);
 }
 
 std::vector<std::string> ObjectReader::keys() const {
@@ -100,10 +93,6 @@ std::vector<std::string> ObjectReader::keys() const {
 const json* ObjectReader::content(std::string_view key) const {
   const auto value = object_.find(key);
   return value == object_.end() ? nullptr : &*value;
-}
-
-std::string ObjectReader::place(std::string_view key) const {
-  return joined(place_, key);
 }
 
 void ObjectReader::fault(std::string_view key, std::string what, std::string remedy) {
@@ -289,10 +278,9 @@ void ObjectReader::refuse(std::string_view key, std::string what, std::string re
 
 const json* ObjectReader::find(std::string_view key, Need need) {
   known_.emplace(key);
-  const auto value = object_.find(key);
-  if (value != object_.end()) return &*value;
-  if (need == Need::required) fault(key, "is missing", "add it");
-  return nullptr;
+  const json* value = content(key);
+  if (!value && need == Need::required) fault(key, "is missing", "add it");
+  return value;
 }
 
 std::string ObjectReader::remedy_of(const json& value, const Names& keys) {

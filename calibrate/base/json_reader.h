@@ -59,12 +59,13 @@ class ObjectReader {
  public:
   static constexpr bool reads = true;
   /// `value` must outlive the reader. `place`: path of the object, empty for the document.
-  ObjectReader(const nlohmann::json& value, std::string place, Faults& faults);
+  ObjectReader(const nlohmann::json& value, std::string place, Faults& faults)
+      : object_(value), place_(std::move(place)), faults_(faults) {}
   ~ObjectReader();
   ObjectReader(const ObjectReader&) = delete;
   ObjectReader& operator=(const ObjectReader&) = delete;
 
-  bool has(std::string_view key) const;
+  bool has(std::string_view key) const { return object_.contains(key); }
   std::vector<std::string> keys() const;
   /// Value of a key; null if absent.
   const nlohmann::json* content(std::string_view key) const;
@@ -72,7 +73,7 @@ class ObjectReader {
   void known(std::string_view key) { known_.emplace(key); }
   Faults& faults() { return faults_; }
   /// Path of a key of this object.
-  std::string place(std::string_view key) const;
+  std::string place(std::string_view key) const { return joined(place_, key); }
   const std::string& place() const { return place_; }
   void fault(std::string_view key, std::string what, std::string remedy);
 
@@ -80,11 +81,6 @@ class ObjectReader {
   bool number(const Key& key, double& target, const Range& range, Need need, double per_si = 1);
   /// Optional key; written if there is a value.
   bool optional_number(const Key& key, std::optional<double>& target, const Range& range);
-  /// Derived on writing; checked, but not stored.
-  void derived_number(const Key& key, const std::optional<double>&, const Range& range) {
-    double unused = 0;
-    number(key, unused, range, Need::optional);
-  }
   /// Object derived on writing, unchecked on reading. `written()`: JSON to write, null for nothing. `body(fields,
   /// key)`: describes it to the schema.
   void derived_object(const Key& key, auto, auto) { known(key); }

@@ -29,9 +29,6 @@ class ObjectSchema {
   void optional_number(const Key& key, const std::optional<double>&, const Range& range) {
     put(key, number_in(range), Need::optional);
   }
-  void derived_number(const Key& key, const std::optional<double>& value, const Range& range) {
-    optional_number(key, value, range);
-  }
   void integer(const Key& key, std::uint64_t, Need need) { put(key, any_whole_number(), need); }
   void integer(const Key& key, int, int smallest, int largest, Need need) {
     put(key, {{"type", "integer"}, {"minimum", smallest}, {"maximum", largest}}, need);

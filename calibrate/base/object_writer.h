@@ -26,9 +26,6 @@ class BasicObjectWriter {
   void optional_number(const Key& key, const std::optional<double>& value, const Range&) {
     if (value) at(key) = *value;
   }
-  void derived_number(const Key& key, const std::optional<double>& value, const Range& range) {
-    optional_number(key, value, range);
-  }
   void integer(const Key& key, std::uint64_t value, Need) { at(key) = value; }
   void integer(const Key& key, int value, int, int, auto when) { put(key, value, when); }
   void text(const Key& key, std::string_view value, auto when) { put(key, value, when); }

@@ -49,8 +49,9 @@ void describe_reading(Fields& fields, Of& one, const Range& range, std::size_t p
                   "number of packings in this mean and standard deviation; present only if a laboratory would reject "
                   "some packings of the confirmation, e.g. because their heaps sheared off"},
                  one.packings, 1, many, WrittenIf{static_cast<std::size_t>(one.packings) != packings});
-  fields.derived_number({"standard_error", "standard error of the mean of two or more packings; derived"},
-                        standard_error(one), not_negative);
+  std::optional<double> error = standard_error(one), difference;
+  fields.optional_number({"standard_error", "standard error of the mean of two or more packings; derived"}, error,
+                         not_negative);
   fields.nullable_number({"measured", "measured reading; null: not measured"}, one.measured, range, required);
   const With measurement{one.measured.has_value()};
   fields.number({"standard_deviation", "standard deviation of one measurement"}, one.standard_deviation, not_negative,
@@ -59,9 +60,8 @@ void describe_reading(Fields& fields, Of& one, const Range& range, std::size_t p
   fields.number({"weight", "weight of the reading in the fit; 0: not fitted"}, one.weight, not_negative, measurement);
   fields.number({"tolerance", "largest accepted difference from the measured reading, if there is one"}, one.tolerance,
                 positive, measurement);
-  std::optional<double> difference;
   if (one.measured) difference = one.simulated - *one.measured;
-  fields.derived_number({"difference", "simulated minus measured reading; derived"}, difference, any);
+  fields.optional_number({"difference", "simulated minus measured reading; derived"}, difference, any);
   fields.optional_number({"band", "in hold-out tests: largest difference that noise explains"}, one.band, not_negative);
 }
 
@@ -366,7 +366,8 @@ void describe_further_confirmation(auto& fields, auto& one) {
         reading.number({"simulated", "mean in this engine"}, own.simulated, any, required);
         reading.number({"simulated_standard_deviation", "standard deviation between packings in this engine"},
                        own.simulated_standard_deviation, not_negative, required);
-        reading.derived_number({"bias", "mean in this engine minus mean in the card; derived"}, own.bias(), any);
+        std::optional bias = own.bias();
+        reading.optional_number({"bias", "mean in this engine minus mean in the card; derived"}, bias, any);
         reading.optional_number({"standard_error", "standard error of the bias"}, own.standard_error, not_negative);
       });
 }
