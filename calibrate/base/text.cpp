@@ -152,6 +152,13 @@ std::string message_of(const Faults& faults) {
   return message;
 }
 
+std::string_view next_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
 std::string small_letters(std::string_view text) {
   std::string out(text);
   for (char& letter : out)

@@ -43,11 +43,9 @@ inline std::string plain(double value, int digits = 3) {
   return format("%.9g", rounded(value, digits));
 }
 
-inline constexpr std::size_t kColumns = 80;
-
 /// Breaks lines between words at `columns`. Longer words, e.g. paths, stay whole; a number stays with its error and
 /// percent sign. Continuation lines start at the second column of a table row, otherwise two columns to the right.
-std::string wrapped(std::string_view text, std::size_t columns = kColumns);
+std::string wrapped(std::string_view text, std::size_t columns = 80);
 
 /// `what` of the fault of an unknown key, which does not affect other values.
 inline constexpr std::string_view unknown_key = "unknown key";
@@ -63,6 +61,9 @@ std::string message_of(const Faults& faults);
 inline std::string shown(double number) {
   return format("%.6g", number);
 }
+
+/// Removes the first line and returns it, without its line break.
+std::string_view next_line(std::string_view& text);
 
 /// Converts ASCII letters to small letters.
 std::string small_letters(std::string_view text);
@@ -159,10 +160,7 @@ inline std::string content_hash(std::string_view content) {
     hash ^= static_cast<unsigned char>(byte);
     hash *= 0x100000001b3u;
   }
-  std::string digits(16, '0');
-  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, hash >>= 4)
-    *digit = "0123456789abcdef"[hash & 15];
-  return digits;
+  return format("%016llx", static_cast<unsigned long long>(hash));
 }
 
 }  // namespace pastefit

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "calibrate/base/text.h"
 #include "calibrate/browser/calls.h"
 
 // The data folder as browser/archive.cmake packs it: of each file its path, its length and its bytes.
@@ -25,18 +26,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string_view next_line(std::string_view& text) {
-  const auto end = text.find('\n');
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(end + 1);
-  return line;
-}
-
 void unpack_data(const fs::path& folder) {
   std::string_view rest(pastefit_data_begin, static_cast<std::size_t>(pastefit_data_end - pastefit_data_begin));
   while (!rest.empty()) {
-    const fs::path file = folder / std::string(next_line(rest));
-    const auto length = static_cast<std::size_t>(std::stoul(std::string(next_line(rest))));
+    const fs::path file = folder / std::string(pastefit::next_line(rest));
+    const auto length = static_cast<std::size_t>(std::stoul(std::string(pastefit::next_line(rest))));
     fs::create_directories(file.parent_path());
     std::ofstream(file, std::ios::binary).write(rest.data(), static_cast<std::streamsize>(length));
     rest.remove_prefix(length);

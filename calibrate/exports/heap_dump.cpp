@@ -150,11 +150,7 @@ class DumpReader {
 
 Result<Particles> parse_dump(std::string_view text, const std::string& name) {
   DumpReader reader(name);
-  while (!text.empty() && !reader.full()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    reader.take(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+  while (!text.empty() && !reader.full()) reader.take(next_line(text));
   return reader.finish();
 }
 

@@ -258,9 +258,7 @@ LammpsLog read_lammps_log(std::string_view text) {
     share = 1;
   };
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string line(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string line(next_line(text));
     double seconds = 0, percent = 0;
     int ranks = 0;
     if (line.starts_with("LAMMPS (")) {

@@ -31,14 +31,6 @@ std::string name_of_run(const Test& test, const RunOptions& options) {
       nlohmann::json{identity_of(test), step ? nlohmann::json(*step) : nlohmann::json(), rounds_once()}.dump());
 }
 
-/// Removes and returns the first line.
-std::string_view next_line(std::string_view& text) {
-  const auto end = std::min(text.find('\n'), text.size());
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return line;
-}
-
 constexpr double kLongest_s = 1e9;  // longest run, thirty years
 
 const char* const kAnew = "delete it to start anew, or name another file";

@@ -7,6 +7,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "calibrate/base/text.h"
+
 namespace pastefit {
 
 namespace {
@@ -21,14 +23,9 @@ bool can_be_written(const std::filesystem::path& file) {
 
 /// URI of a file, with special bytes as %XX. `immutable` keeps SQLite from creating files beside it.
 std::string immutable_uri(const std::filesystem::path& file) {
-  constexpr const char* digits = "0123456789ABCDEF";
   std::string uri = "file:";
-  for (const unsigned char byte : std::filesystem::absolute(file).string()) {
-    if (std::isalnum(byte) || byte == '/')
-      uri += static_cast<char>(byte);
-    else
-      uri += {'%', digits[byte / 16], digits[byte % 16]};
-  }
+  for (const unsigned char byte : std::filesystem::absolute(file).string())
+    uri += std::isalnum(byte) || byte == '/' ? std::string(1, static_cast<char>(byte)) : format("%%%02X", byte);
   return uri + "?immutable=1";
 }
 
