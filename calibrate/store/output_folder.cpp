@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <utility>
 
 #include "calibrate/base/atomic_file.h"
 
@@ -20,19 +19,6 @@ std::vector<std::string> with_store(std::vector<std::string> names) {
   return names;
 }
 
-namespace {
-
-/// Results are replaced, so that none may be a link or a device.
-Faults special_files(const fs::path& folder, const std::vector<std::string>& results) {
-  for (const auto& name : results)
-    if (const std::string special = kind_of_special_file(folder / name); !special.empty())
-      return {{"--out " + folder.string(), "holds " + name + ", which is " + special,
-               "move it away, or choose another folder"}};
-  return {};
-}
-
-}  // namespace
-
 Result<OutputFolder> OutputFolder::open(const fs::path& folder, const std::vector<std::string>& results,
                                         EarlierResult earlier, std::uintmax_t space_bytes) {
   const std::string where = "--out " + folder.string();
@@ -40,7 +26,9 @@ Result<OutputFolder> OutputFolder::open(const fs::path& folder, const std::vecto
   fs::create_directories(folder, error);
   if (error) return Fault{where, "cannot be made: " + error.message(), "choose a folder that can be written"};
 
-  if (Faults special = special_files(folder, results); !special.empty()) return special;
+  for (const auto& name : results)  // they are replaced
+    if (const std::string special = kind_of_special_file(folder / name); !special.empty())
+      return Fault{where, "holds " + name + ", which is " + special, "move it away, or choose another folder"};
   if (earlier == EarlierResult::refuse)
     for (const auto& name : results)
       if (fs::exists(folder / name, error))
@@ -56,7 +44,7 @@ Result<OutputFolder> OutputFolder::open(const fs::path& folder, const std::vecto
 
   const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock < 0) return Fault{where, std::strerror(errno), "choose a folder that can be read and written"};
-  OutputFolder out(folder, lock);
+  OutputFolder out(folder, {nullptr, [lock](void*) { ::close(lock); }});
   if (::flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     return Fault{where, "is in use by another run of pastefit", "wait for it, or choose another folder"};
 
@@ -71,19 +59,6 @@ Result<OutputFolder> OutputFolder::open(const fs::path& folder, const std::vecto
     return faults;
   }
   return out;
-}
-
-OutputFolder::OutputFolder(OutputFolder&& other) noexcept
-    : folder_(std::move(other.folder_)), lock_(std::exchange(other.lock_, -1)) {}
-
-OutputFolder& OutputFolder::operator=(OutputFolder&& other) noexcept {
-  std::swap(folder_, other.folder_);
-  std::swap(lock_, other.lock_);
-  return *this;
-}
-
-OutputFolder::~OutputFolder() {
-  if (lock_ >= 0) ::close(lock_);
 }
 
 void OutputFolder::clear(const std::vector<std::string>& names) const {

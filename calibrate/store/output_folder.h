@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/result.h"
@@ -27,19 +29,16 @@ class OutputFolder {
   static Result<OutputFolder> open(const std::filesystem::path& folder, const std::vector<std::string>& results,
                                    EarlierResult earlier, std::uintmax_t space_bytes);
 
-  OutputFolder(OutputFolder&& other) noexcept;
-  OutputFolder& operator=(OutputFolder&& other) noexcept;
-  ~OutputFolder();
-
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
 
   void clear(const std::vector<std::string>& names) const;
 
  private:
-  OutputFolder(std::filesystem::path folder, int lock) : folder_(std::move(folder)), lock_(lock) {}
+  OutputFolder(std::filesystem::path folder, std::shared_ptr<void> lock)
+      : folder_(std::move(folder)), lock_(std::move(lock)) {}
   std::filesystem::path folder_;
-  int lock_ = -1;
+  std::shared_ptr<void> lock_;  // its deleter closes the locked folder
 };
 
 }  // namespace pastefit

@@ -17,7 +17,6 @@ namespace pastefit {
 namespace {
 
 constexpr int kSchemaVersion = 4;
-const std::string kCountSetAside = "SELECT count(*) FROM set_aside";
 constexpr int kApplicationId = 0x70666974;  // "pfit": identifies a store among SQLite files
 
 std::string numbers_text(const std::vector<double>& numbers) {
@@ -229,7 +228,8 @@ struct Store::State {
       index.emplace(evaluation.key, evaluations.size());
       evaluations.push_back(std::move(evaluation));
     }
-    const int known = static_cast<int>(evaluations.size() + damaged.size()) + database.number(kCountSetAside);
+    const int known =
+        static_cast<int>(evaluations.size() + damaged.size()) + database.number("SELECT count(*) FROM set_aside");
     const auto added = database.run("SELECT value FROM identity WHERE name = 'evaluations'");
     if (added.empty()) throw std::runtime_error("its number of evaluations is missing");
     written = whole_number_of<int>(added[0][0]);
@@ -269,9 +269,7 @@ Result<Store> Store::open(const std::filesystem::path& file, const StoreIdentity
     auto& database = state->database;
     const bool fresh =
         database.number("SELECT count(*) FROM sqlite_master") == 0 && database.number("PRAGMA user_version") == 0;
-    if (!fresh) {
-      if (auto faults = differences(database, file.string(), identity); !faults.empty()) return faults;
-    }
+    if (auto faults = fresh ? Faults{} : differences(database, file.string(), identity); !faults.empty()) return faults;
     // Only after the checks: changing the journal mode writes to the file's header.
     database.run("PRAGMA journal_mode = WAL");
     database.run("PRAGMA synchronous = FULL");
