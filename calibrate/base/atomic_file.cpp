@@ -96,23 +96,19 @@ Faults probe_beside(const std::filesystem::path& file, std::size_t bytes) {
   return written ? Faults{} : unwritable(file, error);
 }
 
-FileLock::FileLock(const std::filesystem::path& file) {
+std::shared_ptr<void> locked(const std::filesystem::path& file) {
   for (;;) {
-    descriptor_ = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor_ < 0) return;
-    ::flock(descriptor_, LOCK_EX);
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) return nullptr;
+    std::shared_ptr<void> lock(nullptr, [descriptor](void*) { ::close(descriptor); });
+    ::flock(descriptor, LOCK_EX);
     // The previous holder may have replaced the file.
     struct stat held {
     }, there{};
-    const bool same = ::fstat(descriptor_, &held) == 0 && ::stat(file.c_str(), &there) == 0 &&
+    const bool same = ::fstat(descriptor, &held) == 0 && ::stat(file.c_str(), &there) == 0 &&
                       held.st_ino == there.st_ino && held.st_dev == there.st_dev;
-    if (same) return;
-    ::close(descriptor_);
+    if (same) return lock;
   }
-}
-
-FileLock::~FileLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 }  // namespace pastefit

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -22,17 +23,8 @@ Faults write_atomically(const std::filesystem::path& file, std::string_view cont
 /// as `write_atomically`.
 Faults probe_beside(const std::filesystem::path& file, std::size_t bytes);
 
-/// Lock of a file between processes during its lifetime, so that reading, changing and replacing the file loses no
-/// other process's change. Blocks until available. Files that cannot be opened are not locked.
-class FileLock {
- public:
-  explicit FileLock(const std::filesystem::path& file);
-  ~FileLock();
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(const FileLock&) = delete;
-
- private:
-  int descriptor_ = -1;
-};
+/// Locks a file between processes during the lifetime of the result, so that reading, changing and replacing the file
+/// loses no other process's change. Blocks until available. Files that cannot be opened are not locked.
+[[nodiscard]] std::shared_ptr<void> locked(const std::filesystem::path& file);
 
 }  // namespace pastefit

@@ -131,7 +131,7 @@ Card card_now(const ConfirmOptions& options, const Card& confirmed) {
 
 /// Adds the confirmation to the card and writes it, or prints it.
 void deliver(const ConfirmOptions& options, const Card& confirmed, const FurtherConfirmation& further) {
-  const FileLock lock(options.card);
+  const std::shared_ptr<void> lock = locked(options.card);
   Card card = card_now(options, confirmed);
   card.further_confirmations.push_back(further);
   deliver_card(card, further_confirmation_text(further), options.json,
