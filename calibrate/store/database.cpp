@@ -83,26 +83,19 @@ int Database::number(const std::string& sql) {
   return whole_number_of<int>(rows[0][0]);
 }
 
-void Database::check(int status) {
-  if (status != SQLITE_OK) throw std::runtime_error(sqlite3_errmsg(handle_));
-}
-
-Transaction::Transaction(Database& database) : database_(database) {
-  database_.run("BEGIN IMMEDIATE");
-}
-
-Transaction::~Transaction() {
-  if (committed_) return;
+void Database::transact(const std::function<void()>& statements) {
+  run("BEGIN IMMEDIATE");
   try {
-    database_.run("ROLLBACK");
-  } catch (const std::exception&) {
-    // SQLite has rolled back already (full disk).
+    statements();
+    run("COMMIT");
+  } catch (...) {
+    sqlite3_exec(handle_, "ROLLBACK", nullptr, nullptr, nullptr);  // fails if SQLite has rolled back (full disk)
+    throw;
   }
 }
 
-void Transaction::commit() {
-  database_.run("COMMIT");
-  committed_ = true;
+void Database::check(int status) {
+  if (status != SQLITE_OK) throw std::runtime_error(sqlite3_errmsg(handle_));
 }
 
 }  // namespace pastefit

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -42,23 +43,12 @@ class Database {
   /// Result of a statement as a number. Errors: throws if there is none.
   int number(const std::string& sql);
 
+  /// Calls `statements` in a transaction, which is rolled back if they throw.
+  void transact(const std::function<void()>& statements);
+
  private:
   void check(int status);
   sqlite3* handle_ = nullptr;
-};
-
-/// Transaction; rolls back unless committed.
-class Transaction {
- public:
-  explicit Transaction(Database& database);
-  Transaction(const Transaction&) = delete;
-  Transaction& operator=(const Transaction&) = delete;
-  ~Transaction();
-  void commit();
-
- private:
-  Database& database_;
-  bool committed_ = false;
 };
 
 }  // namespace pastefit

@@ -53,20 +53,20 @@ void add_inputs(Database& database, int epoch, const std::string& inputs) {
 }
 
 void create(Database& database, const StoreIdentity& identity) {
-  Transaction transaction(database);
-  database.run("CREATE TABLE identity (name TEXT PRIMARY KEY, value TEXT NOT NULL)");
-  database.run(
-      "CREATE TABLE evaluations (sequence INTEGER PRIMARY KEY, key TEXT NOT NULL, epoch INTEGER NOT NULL,"
-      " point TEXT NOT NULL, parameter_values TEXT NOT NULL, packing TEXT NOT NULL, observables TEXT NOT NULL,"
-      " failure TEXT NOT NULL, run TEXT NOT NULL, checksum TEXT NOT NULL)");
-  database.run("CREATE TABLE set_aside AS SELECT * FROM evaluations");
-  database.run("CREATE TABLE inputs (epoch INTEGER PRIMARY KEY, content TEXT NOT NULL, checksum TEXT NOT NULL)");
-  database.run("INSERT INTO identity VALUES ('program', ?)", {identity.program});
-  database.run("INSERT INTO identity VALUES ('evaluations', '0')");
-  add_inputs(database, 1, identity.inputs);
-  database.run("PRAGMA application_id = " + std::to_string(kApplicationId));
-  database.run("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  transaction.commit();
+  database.transact([&] {
+    database.run("CREATE TABLE identity (name TEXT PRIMARY KEY, value TEXT NOT NULL)");
+    database.run(
+        "CREATE TABLE evaluations (sequence INTEGER PRIMARY KEY, key TEXT NOT NULL, epoch INTEGER NOT NULL,"
+        " point TEXT NOT NULL, parameter_values TEXT NOT NULL, packing TEXT NOT NULL, observables TEXT NOT NULL,"
+        " failure TEXT NOT NULL, run TEXT NOT NULL, checksum TEXT NOT NULL)");
+    database.run("CREATE TABLE set_aside AS SELECT * FROM evaluations");
+    database.run("CREATE TABLE inputs (epoch INTEGER PRIMARY KEY, content TEXT NOT NULL, checksum TEXT NOT NULL)");
+    database.run("INSERT INTO identity VALUES ('program', ?)", {identity.program});
+    database.run("INSERT INTO identity VALUES ('evaluations', '0')");
+    add_inputs(database, 1, identity.inputs);
+    database.run("PRAGMA application_id = " + std::to_string(kApplicationId));
+    database.run("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+  });
 }
 
 const std::string kStartAnew = "choose another output folder, or start anew with --force";
@@ -248,12 +248,12 @@ struct Store::State {
   /// Moves damaged rows away, so that their simulations can be repeated.
   void set_damaged_aside() {
     if (damaged.empty()) return;
-    Transaction transaction(database);
-    for (const auto& one : damaged) {
-      database.run("INSERT INTO set_aside SELECT * FROM evaluations WHERE sequence = ?", {one});
-      database.run("DELETE FROM evaluations WHERE sequence = ?", {one});
-    }
-    transaction.commit();
+    database.transact([&] {
+      for (const auto& one : damaged) {
+        database.run("INSERT INTO set_aside SELECT * FROM evaluations WHERE sequence = ?", {one});
+        database.run("DELETE FROM evaluations WHERE sequence = ?", {one});
+      }
+    });
   }
 };
 
@@ -329,19 +329,18 @@ Faults Store::add(const StoredEvaluation& evaluation) {
   const std::lock_guard lock(state_->mutex);
   if (state_->index.contains(evaluation.key)) return {};
   try {
-    Transaction transaction(state_->database);
-    state_->database.run(
-        "INSERT INTO evaluations VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-        with_checksum({std::to_string(state_->sequence + 1), evaluation.key, std::to_string(state_->epoch),
-                       numbers_text(evaluation.point), parameters_to_json(evaluation.values).dump(),
-                       std::to_string(evaluation.packing), to_json(evaluation.readings).dump(),
-                       to_json(evaluation.failure).dump(), text_of_run(evaluation)}));
-    state_->database.run("UPDATE identity SET value = ? WHERE name = 'evaluations'",
-                         {std::to_string(state_->written + 1)});
-    if (!state_->begun) add_inputs(state_->database, state_->epoch, state_->identity.inputs);
-    // SQLite continues to write to a deleted file.
-    if (!std::filesystem::exists(state_->file)) throw std::runtime_error("the file is gone");
-    transaction.commit();
+    Database& database = state_->database;
+    database.transact([&] {
+      database.run("INSERT INTO evaluations VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                   with_checksum({std::to_string(state_->sequence + 1), evaluation.key, std::to_string(state_->epoch),
+                                  numbers_text(evaluation.point), parameters_to_json(evaluation.values).dump(),
+                                  std::to_string(evaluation.packing), to_json(evaluation.readings).dump(),
+                                  to_json(evaluation.failure).dump(), text_of_run(evaluation)}));
+      database.run("UPDATE identity SET value = ? WHERE name = 'evaluations'", {std::to_string(state_->written + 1)});
+      if (!state_->begun) add_inputs(database, state_->epoch, state_->identity.inputs);
+      // SQLite continues to write to a deleted file.
+      if (!std::filesystem::exists(state_->file)) throw std::runtime_error("the file is gone");
+    });
     state_->begun = true;
     ++state_->sequence;
     ++state_->written;
