@@ -257,15 +257,10 @@ struct Store::State {
   }
 };
 
-Store::Store(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Store::Store(Store&&) noexcept = default;
-Store& Store::operator=(Store&&) noexcept = default;
-Store::~Store() = default;
-
 Result<Store> Store::open(const std::filesystem::path& file, const StoreIdentity& identity) {
   try {
     const bool was_there = std::filesystem::exists(file);
-    auto state = std::make_unique<State>(file, identity, DatabaseUse::write);
+    auto state = std::make_shared<State>(file, identity, DatabaseUse::write);
     auto& database = state->database;
     const bool fresh =
         database.number("SELECT count(*) FROM sqlite_master") == 0 && database.number("PRAGMA user_version") == 0;
@@ -292,7 +287,7 @@ Result<Store> Store::read(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file))
     return Fault{file.string(), "there is no such file", "the folder of a calibration"};
   try {
-    auto state = std::make_unique<State>(file, StoreIdentity{}, DatabaseUse::read);
+    auto state = std::make_shared<State>(file, StoreIdentity{}, DatabaseUse::read);
     if (auto faults = defects(state->database, file.string()); !faults.empty()) return faults;
     state->identity = {program_of(state->database), state->load()};
     return Store(std::move(state));

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "calibrate/laboratory/sketch.h"
@@ -46,7 +47,7 @@ std::string evaluation_key(std::string_view program, const Test& test);
 
 /// Record of all finished evaluations, an SQLite file in write-ahead mode with full synchronisation. Each evaluation is
 /// one transaction: after `add` has returned, it survives a crash of the process or of the machine. Thread-safe; for
-/// one process at a time.
+/// one process at a time. Copies are the same store.
 ///
 /// Table `evaluations`: sequence (order of arrival), key, epoch, point, parameter_values, packing, readings, failure,
 /// run (with the sketch), checksum; point to run as JSON text with doubles that read back bit for bit, parameters by
@@ -66,10 +67,6 @@ class Store {
   /// Opens a store of any program and inputs for reading; nothing may be added. Errors: there is no such file, not a
   /// database, damaged, not a store, other schema version.
   static Result<Store> read(const std::filesystem::path& file);
-
-  Store(Store&&) noexcept;
-  Store& operator=(Store&&) noexcept;
-  ~Store();
 
   const StoreIdentity& identity() const;
   int epoch() const;  ///< of evaluations added now
@@ -93,8 +90,8 @@ class Store {
 
  private:
   struct State;
-  explicit Store(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  explicit Store(std::shared_ptr<State> state) : state_(std::move(state)) {}
+  std::shared_ptr<State> state_;
 };
 
 }  // namespace pastefit
