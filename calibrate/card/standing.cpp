@@ -96,15 +96,13 @@ Evidence evidence_of(std::span<const CardTest> tests) {
   return out;
 }
 
-double rejected_share_of(const Card& card, std::span<const CardTest> tests) {
-  const auto may_be = [](const CardTest& one) { return !one.hold_out && rejection_index(one.test, {}).has_value(); };
-  if (std::ranges::none_of(tests, may_be)) return 1;
-  return card.confirmation.rejected_share.value_or(SearchOptions{}.rejected_share);
-}
-
 Confirmation confirmation_by(const Card& card, std::span<const CardTest> tests, std::vector<std::uint64_t> packings) {
   const Evidence evidence = evidence_of(tests);
-  const double share = rejected_share_of(card, tests);
+  const auto may_be = [](const CardTest& one) { return !one.hold_out && rejection_index(one.test, {}).has_value(); };
+  // 1: no fitted test rejects heaps
+  const double share = std::ranges::none_of(tests, may_be)
+                           ? 1
+                           : card.confirmation.rejected_share.value_or(SearchOptions{}.rejected_share);
   const Verdict verdict = verdict_on(evidence, share);
   const bool of_laboratory = evidence.readings > 0 && !card.interpolated;
   return {std::move(packings),

@@ -17,10 +17,6 @@ namespace pastefit {
 /// for each packing, with the largest rejection index of all tests.
 Evidence evidence_of(std::span<const CardTest> tests);
 
-/// Largest accepted share of rejected heaps: of the card's confirmation; the default of studies for cards without it; 1
-/// if no fitted test rejects heaps.
-double rejected_share_of(const Card& card, std::span<const CardTest> tests);
-
 /// Judges a material by its tests, simulated on packings that the search has not used.
 Confirmation confirmation_by(const Card& card, std::span<const CardTest> tests, std::vector<std::uint64_t> packings);
 
