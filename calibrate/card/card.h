@@ -126,10 +126,14 @@ struct CardInference {
     std::string parameter;
     double lower = 0, upper = 0;
   };
-  /// Posterior correlation of two parameters, -1 to 1.
-  struct Correlation {
-    std::string first, second;
-    double value = 0;
+  /// Posterior correlations of a parameter with others, -1 to 1; each pair is in one row.
+  struct Correlations {
+    struct With {
+      std::string second;
+      double value = 0;
+    };
+    std::string first;
+    std::vector<With> others;
   };
   struct NotIdentified {
     std::string parameter;
@@ -138,7 +142,7 @@ struct CardInference {
   std::string method;  ///< of the intervals, e.g. "likelihood of the readings, sampled over the bounds"
   double level = 0;    ///< probability of the intervals, e.g. 0.95; 0: there are none
   std::vector<Interval> intervals;
-  std::vector<Correlation> correlations;
+  std::vector<Correlations> correlations;
   std::vector<NotIdentified> not_identified;
   std::vector<ConditionEffect> conditions;  ///< not stated in any file; included in the intervals
 };

@@ -274,15 +274,7 @@ void describe_conditions(auto& fields, auto& conditions) {
       });
 }
 
-struct Row {
-  std::string first;
-  std::vector<CardInference::Correlation> pairs;
-};
-std::vector<Row> rows_of(const std::vector<CardInference::Correlation>& correlations);
-std::vector<CardInference::Correlation> pairs_of(const std::vector<Row>& rows);
-
-template <class Fields, class Of>
-void describe_inference(Fields& fields, Of& inference) {
+void describe_inference(auto& fields, auto& inference) {
   fields.object(
       {"intervals", "ranges of the fitted parameters that agree with the readings"},
       WrittenIf{!inference.intervals.empty()}, [&](auto& intervals) {
@@ -299,15 +291,15 @@ void describe_inference(Fields& fields, Of& inference) {
               interval.number({"upper", "upper end"}, one.upper, any, required);
             });
       });
-  std::vector<Row> rows = rows_of(inference.correlations);
-  fields.entries({"correlation", "correlations of pairs of parameters, within their joint interval"}, rows, &Row::first,
-                 WrittenIf{!rows.empty()}, [](auto& correlation, const Key& first, auto& row) {
-                   correlation.entries(first, row.pairs, &CardInference::Correlation::second, required,
+  using Correlations = CardInference::Correlations;
+  fields.entries({"correlation", "correlations of pairs of parameters, within their joint interval"},
+                 inference.correlations, &Correlations::first, WrittenIf{!inference.correlations.empty()},
+                 [](auto& correlation, const Key& first, auto& row) {
+                   correlation.entries(first, row.others, &Correlations::With::second, required,
                                        [](auto& pairs, const Key& second, auto& pair) {
                                          pairs.number(second, pair.value, {-1, 1}, required);
                                        });
                  });
-  if constexpr (Fields::reads) inference.correlations = pairs_of(rows);
   fields.entries({"not_identified", "parameters that the readings do not identify, and why"}, inference.not_identified,
                  &CardInference::NotIdentified::parameter, WrittenIf{!inference.not_identified.empty()},
                  [](auto& unseen, const Key& name, auto& one) { unseen.text(name, one.reason, required); });

@@ -38,23 +38,6 @@ std::vector<Baseline::Run> baseline_runs(const BaselineColumns& columns) {
   return runs;
 }
 
-std::vector<Row> rows_of(const std::vector<CardInference::Correlation>& correlations) {
-  std::vector<Row> rows;
-  for (const CardInference::Correlation& pair : correlations) {
-    auto row = std::ranges::find(rows, pair.first, &Row::first);
-    if (row == rows.end()) row = rows.insert(row, {pair.first, {}});
-    row->pairs.push_back(pair);
-  }
-  return rows;
-}
-
-std::vector<CardInference::Correlation> pairs_of(const std::vector<Row>& rows) {
-  std::vector<CardInference::Correlation> correlations;
-  for (const Row& row : rows)
-    for (const auto& [first, second, value] : row.pairs) correlations.push_back({row.first, second, value});
-  return correlations;
-}
-
 std::vector<std::string> failure_names() {
   std::vector<std::string> names;
   for (int reason = 0; reason <= static_cast<int>(FailureReason::stopped); ++reason)

@@ -231,10 +231,13 @@ CardInference card_inference(const Inference& inference) {
     else  // an end at the study's bound keeps its exact value
       out.intervals.push_back({name, one.lower.known ? rounded(one.lower.at, 4) : one.parameter.lower,
                                one.upper.known ? rounded(one.upper.at, 4) : one.parameter.upper});
-    for (std::size_t j = 0; j < i; ++j)
-      if (std::abs(inference.correlation[i][j]) >= told)
-        out.correlations.push_back(
-            {inference.intervals[j].parameter.name, name, rounded(inference.correlation[i][j], 2)});
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!(std::abs(inference.correlation[i][j]) >= told)) continue;
+      const std::string& first = inference.intervals[j].parameter.name;
+      auto row = std::ranges::find(out.correlations, first, &CardInference::Correlations::first);
+      if (row == out.correlations.end()) row = out.correlations.insert(row, {first, {}});
+      row->others.push_back({name, rounded(inference.correlation[i][j], 2)});
+    }
   }
   for (ConditionEffect& condition : out.conditions = inference.conditions)
     for (ConditionEffect::Reading& reading : condition.readings) {

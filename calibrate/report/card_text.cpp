@@ -27,8 +27,9 @@ std::string inference_lines(const Card& card) {
   for (const auto& interval : inference.intervals)
     out += format("  %-24s ", interval.parameter.c_str()) +
            interval_in_words(interval.lower, interval.upper, bounds_in(card, interval), 6) + "\n";
-  for (const auto& pair : inference.correlations)
-    out += format("  %-24s %14.2f with %s\n", pair.first.c_str(), pair.value, pair.second.c_str());
+  for (const auto& [first, others] : inference.correlations)
+    for (const auto& [second, value] : others)
+      out += format("  %-24s %14.2f with %s\n", first.c_str(), value, second.c_str());
   for (const auto& unseen : inference.not_identified)
     out += "  " + unseen.parameter + " is not identified: " + unseen.reason + "\n";
   return out;

@@ -306,7 +306,7 @@ TEST_CASE("intervals, correlations, what is not identified and the history of a 
   inference.method = "profile";
   inference.level = 0.95;
   inference.intervals = {{"strength_pa", 300, 900}};
-  inference.correlations = {{"strength_pa", "curvature", -0.75}};
+  inference.correlations = {{"strength_pa", {{"curvature", -0.75}}}};
   inference.not_identified = {{"formation_ratio", "no reading moves with it"}};
   written.rebaselined = {{"the fill was mended", "a", "b", {{"step1.height_mm", 150, 152}}}};
   written.rescaled = {{0.01, {{"step1.height_mm", 150, 140, 2}}}};
@@ -326,7 +326,7 @@ TEST_CASE("intervals, correlations, what is not identified and the history of a 
   const auto read = card_from_json(text_and_back(document));
   REQUIRE(read.ok());
   CHECK(to_json(read.value()).dump() == document.dump());
-  CHECK(read.value().inference.correlations.at(0).value == -0.75);
+  CHECK(read.value().inference.correlations.at(0).others.at(0).value == -0.75);
   CHECK(read.value().tests[0].baseline.runs.at(1).packing == 4);
   const auto text = text_of(read.value());
   for (const auto* words : {"95 %", "300 to 900", "-0.75 with curvature", "no reading moves with it",
