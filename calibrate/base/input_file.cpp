@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <system_error>
 
@@ -24,11 +25,8 @@ std::string file_in(const fs::path& folder, std::string_view ending) {
   if (!ending.empty())
     for (const auto& entry : fs::directory_iterator(folder, error))
       if (entry.path().extension() == ending) names.insert((folder / entry.path().filename()).string());
-  std::string list;
-  std::size_t shown = 0;
-  for (const std::string& name : names)
-    if (shown++ < most) list += (list.empty() ? "" : ", ") + name;
-  return list.empty() ? "give a file" : "give a file of it: " + list;
+  while (names.size() > most) names.erase(std::prev(names.end()));
+  return names.empty() ? "give a file" : "give a file of it: " + listed(names);
 }
 
 /// Converts bytes to UTF-8; nothing if the encoding does not match.

@@ -169,17 +169,13 @@ std::string small_letters(std::string_view text) {
 std::optional<std::string> nearest(std::string_view word, const Names& candidates) {
   constexpr std::size_t longest = 200;  // longer words are no typing errors, and the distance is quadratic
   if (word.size() > longest) return std::nullopt;
-  const std::string* best = nullptr;
-  std::size_t best_distance = 0;
-  for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(small_letters(word), small_letters(candidate));
-    if (!best || distance < best_distance) {
-      best = &candidate;
-      best_distance = distance;
-    }
-  }
-  if (!best || best_distance > std::max<std::size_t>(2, std::max(word.size(), best->size()) / 2)) return std::nullopt;
-  return *best;
+  const auto distance = [&](const std::string& candidate) {
+    return edit_distance(small_letters(word), small_letters(candidate));
+  };
+  const auto best = std::ranges::min_element(candidates, {}, distance);
+  if (best == candidates.end()) return std::nullopt;
+  const std::size_t most = std::max<std::size_t>(2, std::max(word.size(), best->size()) / 2);
+  return distance(*best) <= most ? std::optional(*best) : std::nullopt;
 }
 
 std::string did_you_mean(std::string_view word, const Names& known, const std::string& otherwise) {
