@@ -17,11 +17,6 @@
 
 namespace pastefit {
 
-struct RecordedWall {
-  std::string name;
-  Shape shape;
-};
-
 /// Picture: one value per grain of its part, ordered by identity.
 struct RecordedFrame {
   double time_s = 0;  ///< on the clock of the film
@@ -30,7 +25,7 @@ struct RecordedFrame {
   std::vector<float> speeds_m_s;
   std::vector<std::uint8_t> coordination;  ///< number of touched grains
   std::vector<float> pulls_n;              ///< tension by neighbours (`pulls_of`)
-  std::vector<RecordedWall> walls;
+  std::vector<Wall> walls;
 };
 
 /// Pictures with the same grains.
@@ -46,6 +41,29 @@ struct RunRecording {
   std::size_t grains() const;  ///< of the largest part
   std::size_t frames() const;
 };
+
+/// Film as embedded in a page; empty without pictures.
+struct CodedRecording {
+  /// Index, as JSON:
+  ///     {"quantum_m", "low_m": [x, y, z], "most_pull_n", "reels": [{"grains", "frames": [{"time_s", "phase", "walls":
+  ///     [...]}]}]};
+  /// "walls" is omitted if unchanged since the frame before.
+  std::string index;
+  /// Grains, deflated (zlib), in base64. For each part:
+  ///     radii        16 bits a grain, in quanta;
+  ///     each frame   x, y and z of all grains, 16 bits each, in quanta from `low_m`; then their speeds, 8 bits:
+  ///                  51 (log10(v in m/s) + 4), 0 to 255; then their coordination, 8 bits; then their tension, 255
+  ///                  times the share of most_pull_n, the largest tension in the film.
+  /// 16-bit numbers are stored as all low bytes, then all high bytes. Frames other than the first of a part contain
+  /// differences from the one before, modulo 2^16 or 2^8. The quantum is 0.05 mm, or more if the film is too wide for
+  /// 16 bits.
+  std::string grains;
+
+  bool empty() const { return grains.empty(); }
+  bool operator==(const CodedRecording&) const = default;
+};
+
+CodedRecording coded(const RunRecording& film);
 
 /// Records the snapshots of a run (`RunOptions::watch`) as a film. A new part begins where grains are replaced or have
 /// grown: at a stage with its own clock, and at each further drop of one heap, which its phases name.

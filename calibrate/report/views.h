@@ -9,7 +9,6 @@
 
 #include "calibrate/card/card.h"
 #include "calibrate/laboratory/drawing.h"
-#include "calibrate/report/recording_code.h"
 #include "calibrate/report/run_recording.h"
 
 namespace pastefit {

@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/report/recording_code.h"
 #include "calibrate/report/run_recording.h"
 #include "core/world/world.h"
 
@@ -24,10 +23,11 @@ RunRecording film_of_two_frames() {
   RunRecording film;
   RecordingPart part;
   part.radii_m = {0.01, 0.02};
+  Wall table;
+  table.name = "table";
+  part.frames.push_back({0, "step1.lift", {{0, 0, 0}, {1, 2, 3}}, {0.0f, 1.0f}, {0, 1}, {0.0f, 0.5f}, {table}});
   part.frames.push_back(
-      {0, "step1.lift", {{0, 0, 0}, {1, 2, 3}}, {0.0f, 1.0f}, {0, 1}, {0.0f, 0.5f}, {{"table", Plane{}}}});
-  part.frames.push_back(
-      {0.5, "step1.rest", {{0, 0, -0.25}, {1, 2, 3.5}}, {10.0f, 1.0f}, {3, 0}, {2.0f, 1.0f}, {{"table", Plane{}}}});
+      {0.5, "step1.rest", {{0, 0, -0.25}, {1, 2, 3.5}}, {10.0f, 1.0f}, {3, 0}, {2.0f, 1.0f}, {table}});
   film.parts.push_back(std::move(part));
   return film;
 }

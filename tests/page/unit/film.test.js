@@ -34,7 +34,7 @@ const index = {
 };
 
 /**
- * As `coded` of calibrate/report/recording_code.cpp writes them: low bytes, then high ones.
+ * As `coded` of calibrate/report/run_recording.cpp writes them: low bytes, then high ones.
  * @param {...number} numbers
  */
 const words = (...numbers) => [...numbers.map((one) => one & 0xff), ...numbers.map((one) => (one >> 8) & 0xff)];

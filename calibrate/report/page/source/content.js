@@ -140,7 +140,7 @@
  */
 
 /**
- * @typedef {object} FilmIndex what is known of a film before its bytes are read (calibrate/report/recording_code.h)
+ * @typedef {object} FilmIndex what is known of a film before its bytes are read (calibrate/report/run_recording.h)
  * @property {number} quantum_m
  * @property {[number, number, number]} low_m
  * @property {number} most_pull_n

@@ -1,5 +1,5 @@
 // The film of a run: places, speeds and neighbours of its grains, and what pulls on them, as they are coded in
-// calibrate/report/recording_code.h.
+// calibrate/report/run_recording.h.
 
 /** @typedef {import("./content.js").FilmIndex} FilmIndex */
 /** @typedef {import("./content.js").PartIndex} PartIndex */
