@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -39,17 +40,16 @@ Frame frame_of(const Snapshot& snapshot) {
           particles.identity};
 }
 
-/// View of a member of every grain, which keeps the frame alive. Shape: grains, then `width` if that is > 0.
+/// View of numbers of every grain, `stride` bytes apart, which keeps the frame alive. Shape: grains, then `width` if
+/// that is > 0.
 template <class Number>
-py::array grains_array(const std::shared_ptr<Frame>& frame, std::size_t offset, py::ssize_t width) {
-  const auto count = static_cast<py::ssize_t>(frame->grains.size());
-  constexpr auto kStride = static_cast<py::ssize_t>(sizeof(Motion)), kSize = static_cast<py::ssize_t>(sizeof(Number));
-  std::vector<py::ssize_t> shape{count}, strides{kStride};
+py::array grains_array(const std::shared_ptr<Frame>& frame, const Number* first, std::size_t stride,
+                       py::ssize_t width) {
+  std::vector<py::ssize_t> shape{std::ssize(frame->grains)}, strides{static_cast<py::ssize_t>(stride)};
   if (width > 0) {
     shape.push_back(width);
-    strides.push_back(kSize);
+    strides.push_back(sizeof(Number));
   }
-  const auto* first = reinterpret_cast<const std::byte*>(frame->grains.data()) + offset;
   py::array view(py::dtype::of<Number>(), shape, strides, first, py::cast(frame));
   view.attr("flags").attr("writeable") = false;
   return view;
@@ -58,14 +58,20 @@ py::array grains_array(const std::shared_ptr<Frame>& frame, std::size_t offset, 
 /// One run of a test for later inspection; `run` is called without the interpreter's lock.
 class SimulationRun {
  public:
-  SimulationRun(FoundScene found, std::optional<std::uint64_t> seed, std::optional<double> frames_s, int threads,
+  /// `text`: content of the file, if there is one already.
+  SimulationRun(const std::optional<std::string>& text, const std::string& file,
+                const std::vector<std::string>& settings, const std::string& test_name,
+                std::optional<std::uint64_t> seed, std::optional<double> frames_s, int threads,
                 std::shared_ptr<Stop> stop)
-      : scene_(std::move(found.scene)), frames_s_(frames_s), threads_(threads), stop_(std::move(stop)) {
+      : frames_s_(frames_s), threads_(threads), stop_(std::move(stop)) {
+    FoundScene found = value_or_throw(text ? scene_from_json(nlohmann::json::parse(*text), file, settings, test_name)
+                                           : read_scene(file, settings, test_name));
+    scene_ = std::move(found.scene);
+    notes = std::move(found.notes);
     auto* test = std::get_if<Test>(&scene_);
     if (seed && !test) refuse({{"seed", "an impact has no random packing", "leave it out"}});
     if (seed) specimen_of(*test).packing_seed = *seed;
     if (test) refuse(validate_memory(*test, 1));
-    notes = std::move(found.notes);
   }
 
   void run() {
@@ -108,40 +114,29 @@ class SimulationRun {
 }  // namespace
 
 void add_simulation(py::module_& module) {
-  py::class_<Frame, std::shared_ptr<Frame>>(module, "Frame")
+  using SharedFrame = std::shared_ptr<Frame>;
+  py::class_<Frame, SharedFrame>(module, "Frame")
       .def_readonly("phase", &Frame::phase)
       .def_readonly("time_s", &Frame::time_s)
       .def_property_readonly("positions",
-                             [](const std::shared_ptr<Frame>& frame) {
-                               return grains_array<double>(frame, offsetof(Motion, position), 3);
+                             [](const SharedFrame& frame) {
+                               return grains_array(frame, &frame->grains.data()->position.x, sizeof(Motion), 3);
                              })
-      .def_property_readonly(
-          "radii",
-          [](const std::shared_ptr<Frame>& frame) { return grains_array<double>(frame, offsetof(Motion, radius), 0); })
-      .def_property_readonly(
-          "velocities",
-          [](const std::shared_ptr<Frame>& frame) { return grains_array<float>(frame, offsetof(Motion, velocity), 3); })
-      .def_property_readonly("identities", [](const std::shared_ptr<Frame>& frame) {
-        py::array view(py::dtype::of<std::int32_t>(), {static_cast<py::ssize_t>(frame->identity.size())},
-                       {static_cast<py::ssize_t>(sizeof(std::int32_t))}, frame->identity.data(), py::cast(frame));
-        view.attr("flags").attr("writeable") = false;
-        return view;
+      .def_property_readonly("radii",
+                             [](const SharedFrame& frame) {
+                               return grains_array(frame, &frame->grains.data()->radius, sizeof(Motion), 0);
+                             })
+      .def_property_readonly("velocities",
+                             [](const SharedFrame& frame) {
+                               return grains_array(frame, frame->grains.data()->velocity, sizeof(Motion), 3);
+                             })
+      .def_property_readonly("identities", [](const SharedFrame& frame) {
+        return grains_array(frame, frame->identity.data(), sizeof(std::int32_t), 0);
       });
   py::class_<SimulationRun>(module, "SimulationRun")
-      .def_static("of_file",
-                  [](const std::string& file, const std::vector<std::string>& settings, const std::string& test,
-                     std::optional<std::uint64_t> seed, std::optional<double> frames_s, int threads,
-                     std::shared_ptr<Stop> stop) {
-                    return SimulationRun(value_or_throw(read_scene(file, settings, test)), seed, frames_s, threads,
-                                         std::move(stop));
-                  })
-      .def_static("of_json",
-                  [](const std::string& text, const std::string& file, const std::vector<std::string>& settings,
-                     const std::string& test, std::optional<std::uint64_t> seed, std::optional<double> frames_s,
-                     int threads, std::shared_ptr<Stop> stop) {
-                    return SimulationRun(value_or_throw(scene_from_json(parsed(text), file, settings, test)), seed,
-                                         frames_s, threads, std::move(stop));
-                  })
+      .def(py::init<const std::optional<std::string>&, const std::string&, const std::vector<std::string>&,
+                    const std::string&, std::optional<std::uint64_t>, std::optional<double>, int,
+                    std::shared_ptr<Stop>>())
       .def("run", &SimulationRun::run, py::call_guard<py::gil_scoped_release>())
       .def_readonly("frames", &SimulationRun::frames)
       .def_readonly("notes", &SimulationRun::notes)

@@ -108,12 +108,13 @@ def simulate(scene: Scene, *, seed: Optional[int] = None, set: Optional[Mapping[
         raise InputError(faults)
     used = min(threads or processors(), processors())
     stop, options = _core.Stop(), (_settings(set or {}), test, seed, frames, used)
+    text, path = None, ""
     if isinstance(scene, (Study, Card)):
-        path = scene.path if isinstance(scene, Study) else ""
-        run = _core.SimulationRun.of_json(text_of(scene.content), path, *options, stop)
+        text, path = text_of(scene.content), scene.path if isinstance(scene, Study) else ""
     elif isinstance(scene, Mapping):
-        run = _core.SimulationRun.of_json(text_of(scene), "", *options, stop)
+        text = text_of(scene)
     else:
-        run = _core.SimulationRun.of_file(os.fspath(scene), *options, stop)
+        path = os.fspath(scene)
+    run = _core.SimulationRun(text, path, *options, stop)
     interrupt.run(run.run, stop)
     return Simulation(run)
