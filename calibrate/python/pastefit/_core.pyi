@@ -40,19 +40,11 @@ class SimulationRun:
     @property
     def notes(self) -> List[str]: ...
 
-class CalibrationOptions:
-    study_file: str
-    out: str
-    resume: bool
-    force: bool
-    page: bool
-    threads: int
-    wall_budget_s: float
-
 Ask = Callable[[str, Callable[[], bool]], Optional[str]]
 
 class CalibrationRun:
-    def __init__(self, study: Study, options: CalibrationOptions, stop: Stop, engine: Optional[Tuple[Ask, str]]) -> None: ...
+    def __init__(self, study: Study, study_file: str, out: str, resume: bool, force: bool, page: bool, threads: int,
+                 wall_budget_s: float, stop: Stop, engine: Optional[Tuple[Ask, str]]) -> None: ...
     def run(self) -> None: ...
     def progress(self) -> str: ...
     def result(self) -> str: ...

@@ -150,16 +150,13 @@ def calibrate(study: Union[Study, str, "os.PathLike[str]"], *, out: Union[str, "
 
 def _calibrate(study: Study, out: str, executor: Any, progress: Show, resume: bool, force: bool, threads: int,
                wall_budget_s: float, page: bool) -> CalibrationResult:
-    options = _core.CalibrationOptions()
-    options.study_file, options.out, options.resume, options.force = study.path, out, resume, force
-    options.threads, options.wall_budget_s, options.page = threads, wall_budget_s, page
     workers = Workers(executor) if executor is not None else None
     engine = None
     if workers is not None:
-        options.threads = threads or workers.count
+        threads = threads or workers.count
         engine = (_asked_of(workers), uuid.uuid4().hex)
     stop = _core.Stop()
-    run = _core.CalibrationRun(study._study, options, stop, engine)
+    run = _core.CalibrationRun(study._study, study.path, out, resume, force, page, threads, wall_budget_s, stop, engine)
     show = progress_module.shown_by(progress)
 
     def poll() -> None:
