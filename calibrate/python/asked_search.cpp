@@ -29,7 +29,7 @@ AskedSearch::AskedSearch(std::unique_ptr<Store> store, std::unique_ptr<Answers> 
         progress_ = progress;
       }) {}
 
-ordered_json AskedSearch::suggest(std::size_t count) {
+std::string AskedSearch::suggest(std::size_t count) {
   ordered_json out = ordered_json::array();
   for (const Simulation& one : calibrator_.suggest(count)) {
     auto& simulations = asked_[one.candidate];
@@ -41,7 +41,7 @@ ordered_json AskedSearch::suggest(std::size_t count) {
       variables[parameters[i].name] = value_between(parameters[i], one.point[static_cast<Eigen::Index>(i)]);
     out.push_back({{"_id", one.candidate}, {"seed", one.packing}, {"variables", variables}, {"purpose", one.purpose}});
   }
-  return out;
+  return out.dump();
 }
 
 Faults AskedSearch::faults_of(const EngineAnswer& answer, std::size_t place) const {
@@ -50,9 +50,9 @@ Faults AskedSearch::faults_of(const EngineAnswer& answer, std::size_t place) con
     return {{where, "answers candidate " + std::to_string(answer.candidate) + ", which nobody asked for",
              "the \"_id\" of a candidate that suggest() gave"}};
   Faults faults;
-  if (answer.error) return faults;
+  if (answer.outcome.failure) return faults;
   for (const std::string& reading : answers_->readings())
-    if (!answer.readings.find(reading))
+    if (!answer.outcome.readings.find(reading))
       faults.push_back({where, "has no \"" + reading + "\", which the laboratory measured",
                         "the number, NaN if there is none, or \"error\": why the simulation failed"});
   return faults;
@@ -60,13 +60,24 @@ Faults AskedSearch::faults_of(const EngineAnswer& answer, std::size_t place) con
 
 namespace {
 
+EngineAnswer answer_in(const nlohmann::json& given) {
+  EngineAnswer answer;
+  answer.candidate = given.at("_id").get<std::size_t>();
+  if (given.contains("error")) {
+    answer.outcome.failure.emplace().reason = FailureReason::engine_failed;
+    answer.outcome.failure->message = given.at("error").get<std::string>();
+  }
+  if (given.contains("readings"))
+    for (const auto& [name, value] : given.at("readings").items())
+      answer.outcome.readings.set(name, value.get<double>());
+  return answer;
+}
+
 /// Result for one test: its readings under its own names; of a problem, the measured ones.
-Outcome outcome_of(const Simulation& simulation, const EngineAnswer& answer, const std::vector<std::string>& measured) {
+Outcome outcome_in(const Outcome& answer, const Simulation& simulation, const std::vector<std::string>& measured) {
+  if (answer.failure) return answer;
   Outcome outcome;
-  if (answer.error) {
-    outcome.failure.emplace().reason = FailureReason::engine_failed;
-    outcome.failure->message = *answer.error;
-  } else if (simulation.study) {
+  if (simulation.study) {
     const std::string before = reading_name(simulation.study->tests[simulation.test], "");
     for (const auto& [name, value] : answer.readings.all())
       if (name.starts_with(before)) outcome.readings.set(std::string_view(name).substr(before.size()), value);
@@ -78,17 +89,18 @@ Outcome outcome_of(const Simulation& simulation, const EngineAnswer& answer, con
 
 }  // namespace
 
-Faults AskedSearch::ingest(const std::vector<EngineAnswer>& answers) {
+void AskedSearch::ingest(const std::string& answers) {
+  std::vector<EngineAnswer> given;
+  for (const auto& answer : nlohmann::json::parse(answers)) given.push_back(answer_in(answer));
   Faults faults;
-  for (std::size_t i = 0; i < answers.size(); ++i) append(faults, faults_of(answers[i], i));
-  if (!faults.empty()) return faults;
-  for (const EngineAnswer& answer : answers)
+  for (std::size_t i = 0; i < given.size(); ++i) append(faults, faults_of(given[i], i));
+  refuse(std::move(faults));
+  for (const EngineAnswer& answer : given)
     for (const Simulation& one : asked_.at(answer.candidate)) {
       StoredEvaluation evaluation = answers_->unanswered(one);
-      enter(evaluation, outcome_of(one, answer, answers_->readings()), std::nullopt);
-      if (auto unstored = calibrator_.ingest(one, evaluation); !unstored.empty()) return unstored;
+      enter(evaluation, outcome_in(answer.outcome, one, answers_->readings()), std::nullopt);
+      refuse(calibrator_.ingest(one, evaluation));
     }
-  return {};
 }
 
 namespace {
@@ -112,88 +124,53 @@ ordered_json readings_json(const Scoring& scoring, const Response& shown,
 
 }  // namespace
 
-ordered_json AskedSearch::result() const {
+std::string AskedSearch::result() const {
   const CalibrationResult result = calibrator_.result();
   ordered_json out = result_json(result);
   const Calibration& found = result.search;
-  if (result.card || found.best.point.size() == 0 || found.best.failed) return out;
+  if (result.card || found.best.point.size() == 0 || found.best.failed) return out.dump();
   const Response& shown = shown_of(found);
   const auto& parameters = answers_->parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i)
     out["parameters"][parameters[i].name] = value_between(parameters[i], shown.point[static_cast<Eigen::Index>(i)]);
   out["readings"] = readings_json(answers_->scoring(), shown, answers_->evidence(found.history).readings);
   if (result.inference) out["summary"] = describe(*result.inference);
-  return out;
+  return out.dump();
 }
 
-ordered_json AskedSearch::progress() const {
+std::string AskedSearch::progress() const {
   const std::lock_guard lock(mutex_);
-  return progress_json(progress_);
+  return progress_json(progress_).dump();
 }
 
-Result<std::shared_ptr<AskedSearch>> search_of_study(std::shared_ptr<const Study> study, const std::string& study_file,
-                                                     const std::string& file, const std::string& engine) {
-  if (auto faults = validate(*study); !faults.empty()) return faults;
-  auto opened = Store::open(file, {engine, inputs_of(*study)});
-  if (!opened.ok()) return opened.faults();
-  auto store = std::make_unique<Store>(std::move(opened).value());
-  if (auto faults = strangers_in(*study, *store, file); !faults.empty()) return faults;
+std::shared_ptr<AskedSearch> search_of_study(std::shared_ptr<Study> study, const std::string& study_file,
+                                             const std::string& file, const std::string& engine) {
+  refuse(validate(*study));
+  auto store = std::make_unique<Store>(value_or_throw(Store::open(file, {engine, inputs_of(*study)})));
+  refuse(strangers_in(*study, *store, file));
   auto answers = std::make_unique<StudyAnswers>(std::move(study), *store, study_file, Simulates::fitted_tests);
   return std::make_shared<AskedSearch>(std::move(store), std::move(answers), evaluations_json);
 }
 
-namespace {
-
-/// [{"_id", "readings": {...}}, or {"_id", "error"}, ...]
-std::vector<EngineAnswer> answers_from(const nlohmann::json& document) {
-  std::vector<EngineAnswer> answers;
-  for (const auto& given : document) {
-    EngineAnswer answer;
-    answer.candidate = given.at("_id").get<std::size_t>();
-    if (given.contains("error")) answer.error = given.at("error").get<std::string>();
-    if (given.contains("readings"))
-      for (const auto& [name, value] : given.at("readings").items()) answer.readings.set(name, value.get<double>());
-    answers.push_back(std::move(answer));
-  }
-  return answers;
-}
-
-}  // namespace
-
 void add_search(py::module_& module) {
   module.def("largest_reading", [] { return kLargestReading; });
   const py::call_guard<py::gil_scoped_release> unlocked;
-  py::class_<CustomProblem, std::shared_ptr<CustomProblem>>(module, "Problem")
-      .def_static("from_json",
-                  [](const std::string& text, const std::vector<std::string>& own_names) {
-                    return value_or_throw(problem_from_json(parsed(text), own_names));
-                  })
+  py::class_<CustomProblem>(module, "Problem")
+      .def_static("from_json", problem_from_json)
       .def_readonly("content", &CustomProblem::content)
       .def("description", [](const CustomProblem& problem) {
         return description_json(problem.title, problem.parameters, problem.readings, problem.search).dump();
       });
   py::class_<AskedSearch, std::shared_ptr<AskedSearch>>(module, "Search")
-      .def_static("of_study",
-                  [](std::shared_ptr<Study> study, const std::string& study_file, const std::string& file,
-                     const std::string& engine) {
-                    return value_or_throw(search_of_study(std::move(study), study_file, file, engine));
-                  })
-      .def_static("of_problem",
-                  [](const CustomProblem& problem, const std::string& file, const std::string& engine) {
-                    return value_or_throw(search_of_problem(problem, file, engine));
-                  })
-      .def(
-          "suggest", [](AskedSearch& search, std::size_t count) { return search.suggest(count).dump(); }, unlocked)
-      .def(
-          "ingest",
-          [](AskedSearch& search, const std::string& results) { refuse(search.ingest(answers_from(parsed(results)))); },
-          unlocked)
+      .def_static("of_study", search_of_study)
+      .def_static("of_problem", search_of_problem)
+      .def("suggest", &AskedSearch::suggest, unlocked)
+      .def("ingest", &AskedSearch::ingest, unlocked)
       .def("stop", &AskedSearch::stop, unlocked)
       .def("finished", &AskedSearch::finished)
-      .def(
-          "result", [](AskedSearch& search) { return search.result().dump(); }, unlocked)
-      .def("evaluations", [](const AskedSearch& search) { return search.evaluations().dump(); })
-      .def("progress", [](const AskedSearch& search) { return search.progress().dump(); });
+      .def("result", &AskedSearch::result, unlocked)
+      .def("evaluations", &AskedSearch::evaluations)
+      .def("progress", &AskedSearch::progress);
 }
 
 }  // namespace pastefit::python

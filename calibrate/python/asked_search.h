@@ -6,8 +6,6 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -15,17 +13,17 @@
 #include "calibrate/store/store.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"
+#include "core/step/run.h"
 
 namespace pastefit::python {
 
 /// Result of an external simulator for a candidate.
 struct EngineAnswer {
   std::size_t candidate = 0;
-  Readings readings;                 ///< by name in the study, all finite
-  std::optional<std::string> error;  ///< reason why there are none
+  Outcome outcome;  ///< readings by name in the study, all finite, or the reason why there are none
 };
 
-/// Calibration with an external simulator, which answers a candidate with all its readings at once.
+/// Calibration with an external simulator, which answers a candidate with all its readings at once. Texts are JSON.
 class AskedSearch {
  public:
   /// `table`: the evaluations of a store, as `evaluations_json`.
@@ -33,19 +31,19 @@ class AskedSearch {
   AskedSearch(std::unique_ptr<Store> store, std::unique_ptr<Answers> answers, Table table);
 
   /// [{"_id", "seed", "variables", "purpose"}, ...]
-  nlohmann::ordered_json suggest(std::size_t count);
-  /// Takes answers. Errors: an answer to an unknown candidate, or without a measured reading (nothing is taken then);
-  /// an answer cannot be stored.
-  Faults ingest(const std::vector<EngineAnswer>& answers);
+  std::string suggest(std::size_t count);
+  /// Takes answers, [{"_id", "readings": {...}}, or {"_id", "error"}, ...]. Refused: an answer to an unknown candidate,
+  /// or without a measured reading (nothing is taken then); an answer that cannot be stored.
+  void ingest(const std::string& answers);
   /// Ends the search with the best result so far, without examination.
   void stop() { calibrator_.stop(); }
   bool finished() const { return calibrator_.finished(); }
 
   /// As `result_json`; without a card, also "parameters" and "readings" of the reported candidate. Requirement:
   /// `finished()`.
-  nlohmann::ordered_json result() const;
-  nlohmann::ordered_json evaluations() const { return table_(*store_); }
-  nlohmann::ordered_json progress() const;
+  std::string result() const;
+  std::string evaluations() const { return table_(*store_).dump(); }
+  std::string progress() const;
 
  private:
   Faults faults_of(const EngineAnswer& answer, std::size_t place) const;
@@ -60,9 +58,9 @@ class AskedSearch {
 };
 
 /// Answers to a study, stored in `file`. `engine`: name and version of the simulator; answers of other engines are not
-/// used. Errors: the study cannot be searched; the store belongs to another engine or study.
-Result<std::shared_ptr<AskedSearch>> search_of_study(std::shared_ptr<const Study> study, const std::string& study_file,
-                                                     const std::string& file, const std::string& engine);
+/// used. Refused: the study cannot be searched; the store belongs to another engine or study.
+std::shared_ptr<AskedSearch> search_of_study(std::shared_ptr<Study> study, const std::string& study_file,
+                                             const std::string& file, const std::string& engine);
 
 /// Calibration problem for tests unknown to pastefit: arbitrary parameters and readings, and search options.
 struct CustomProblem {
@@ -75,12 +73,12 @@ struct CustomProblem {
 
 /// Reads {"title", "parameters": {NAME: {"free", "scale", "prior"}}, "measurements": {NAME: {"value",
 /// "standard_deviation", "repeats"}}, "tolerances": {NAME: ...}, "weights": {NAME: ...}, "search"}, as in laboratory
-/// and study files. Default tolerance: the standard deviation. Errors: every fault, with its place; names reserved by
+/// and study files. Default tolerance: the standard deviation. Refused: every fault, with its place; names reserved by
 /// candidates, answers or evaluations (`own`).
-Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::span<const std::string> own);
+CustomProblem problem_from_json(const std::string& text, const std::vector<std::string>& own);
 
-/// Answers to a problem, stored in `file`. Errors: those of `Store::open`; the store belongs to another problem.
-Result<std::shared_ptr<AskedSearch>> search_of_problem(CustomProblem problem, const std::string& file,
-                                                       const std::string& engine);
+/// Answers to a problem, stored in `file`. Refused: the errors of `Store::open`; the store belongs to another problem.
+std::shared_ptr<AskedSearch> search_of_problem(CustomProblem problem, const std::string& file,
+                                               const std::string& engine);
 
 }  // namespace pastefit::python

@@ -77,7 +77,7 @@ std::vector<StudyReading> read_readings(ObjectReader& document) {
 
 /// Faults of duplicate names: candidates, answers and the table of evaluations use parameters and readings side by
 /// side.
-Faults clashing_names(const CustomProblem& problem, std::span<const std::string> own) {
+Faults clashing_names(const CustomProblem& problem, const std::vector<std::string>& own) {
   Faults faults;
   const auto check = [&](const std::string& place, const std::string& name) {
     if (name.empty()) faults.push_back({place + ".\"\"", "is not a name", "a name of at least one letter"});
@@ -196,11 +196,12 @@ nlohmann::ordered_json evaluations_of(const CustomProblem& problem, const Store&
 
 }  // namespace
 
-Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::span<const std::string> own) {
+CustomProblem problem_from_json(const std::string& text, const std::vector<std::string>& own) {
+  const json document = json::parse(text);
   Faults faults;
   CustomProblem problem;
   problem.content = document.dump();
-  if (!document.is_object()) return Fault{"", "is not an object", "{\"title\", \"parameters\", \"measurements\", ...}"};
+  if (!document.is_object()) refuse({{"", "is not an object", "{\"title\", \"parameters\", \"measurements\", ...}"}});
   {
     ObjectReader reader(document, "", faults);
     reader.text("title", problem.title, Need::required);
@@ -210,20 +211,18 @@ Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::spa
   }
   append(faults, clashing_names(problem, own));
   if (faults.empty()) faults = validate(problem.search, static_cast<int>(problem.parameters.size()));
-  if (!faults.empty()) return faults;
+  refuse(std::move(faults));
   return problem;
 }
 
-Result<std::shared_ptr<AskedSearch>> search_of_problem(CustomProblem problem, const std::string& file,
-                                                       const std::string& engine) {
+std::shared_ptr<AskedSearch> search_of_problem(CustomProblem problem, const std::string& file,
+                                               const std::string& engine) {
   json inputs = json::parse(problem.content);
   inputs.erase("title");
   if (inputs.contains("search")) inputs["search"].erase("budget_simulations");
-  auto opened = Store::open(file, {engine, json{{"problem", inputs}}.dump()});
-  if (!opened.ok()) return opened.faults();
-  auto store = std::make_unique<Store>(std::move(opened).value());
+  auto store = std::make_unique<Store>(value_or_throw(Store::open(file, {engine, json{{"problem", inputs}}.dump()})));
   if (store->size() > 0 && !store->changes().empty())
-    return Fault{file, "holds the answers of another problem", "another file; nothing of it was changed"};
+    refuse({{file, "holds the answers of another problem", "another file; nothing of it was changed"}});
   auto answers = std::make_unique<ProblemAnswers>(problem, *store);
   const auto table = [problem = std::move(problem)](const Store& of) { return evaluations_of(problem, of); };
   return std::make_shared<AskedSearch>(std::move(store), std::move(answers), table);
