@@ -24,12 +24,16 @@ using nlohmann::ordered_json;
 
 namespace {
 
+Card card_in(const std::string& text) {
+  return value_or_throw(card_from_json(nlohmann::json::parse(text)));
+}
+
 /// {"files": {name: content}, "notes": [...], "instructions"}; the notes are also one of the files.
 std::string export_json(const std::string& card_text, const std::string& target, const ExportRequest& request) {
   Faults faults;
   const auto exporter = exporter_named(target);
   append(faults, exporter);
-  const auto card = card_from_json(parsed(card_text));
+  const auto card = card_from_json(nlohmann::json::parse(card_text));
   append(faults, card);
   refuse(std::move(faults));
   const Export written = value_or_throw(export_card(card.value(), exporter.value(), request));
@@ -51,7 +55,7 @@ CheckEngine stoppable(std::shared_ptr<Stop> stop) {
 
 std::string check_json(const std::string& card_text, const CheckOptions& options, const std::string& against,
                        std::shared_ptr<Stop> stop) {
-  const Card card = value_or_throw(card_from_json(parsed(card_text)));
+  const Card card = card_in(card_text);
   const CheckEngine engine = stoppable(std::move(stop));
   const CardCheck answer = against.empty() ? check(card, options, engine)
                                            : check_against(card, value_or_throw(read_lab(against)), options, engine);
@@ -60,7 +64,7 @@ std::string check_json(const std::string& card_text, const CheckOptions& options
 
 /// The card with other values of these material parameters (`with_other_material`).
 std::string card_with_parameters(const std::string& card_text, const std::map<std::string, double>& parameters) {
-  Card card = value_or_throw(card_from_json(parsed(card_text)));
+  Card card = card_in(card_text);
   std::vector<double> values = values_of(card.material);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (const auto other = parameters.find(card.material.parameters[i].name); other != parameters.end())
@@ -74,12 +78,9 @@ void add_cards(py::module_& module) {
   const py::call_guard<py::gil_scoped_release> unlocked;
   module.def("read_card",
              [](const std::string& file) { return ordered_json(to_json(value_or_throw(read_card(file)))).dump(); });
-  module.def("card_from_json",
-             [](const std::string& text) { return to_json(value_or_throw(card_from_json(parsed(text)))).dump(); });
-  module.def("card_summary",
-             [](const std::string& text) { return summary_of(value_or_throw(card_from_json(parsed(text)))); });
-  module.def("card_verdict",
-             [](const std::string& text) { return verdict_of(value_or_throw(card_from_json(parsed(text)))); });
+  module.def("card_from_json", [](const std::string& text) { return to_json(card_in(text)).dump(); });
+  module.def("card_summary", [](const std::string& text) { return summary_of(card_in(text)); });
+  module.def("card_verdict", [](const std::string& text) { return verdict_of(card_in(text)); });
   module.def("card_with_parameters", card_with_parameters);
   module.def("widening", widening);
   module.def(

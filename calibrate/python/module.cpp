@@ -1,6 +1,7 @@
 #include "calibrate/python/module.h"
 
 #include <exception>
+#include <memory>
 #include <utility>
 
 #include "calibrate/base/text.h"
@@ -38,7 +39,9 @@ PYBIND11_MODULE(_core, module) {
   using namespace pastefit;
   python::translate_refusals();
   if (const Faults faults = obey_kernels_variable(); !faults.empty()) throw pybind11::import_error(message_of(faults));
-  python::add_stop(module);
+  pybind11::class_<python::Stop, std::shared_ptr<python::Stop>>(module, "Stop")
+      .def(pybind11::init<>())
+      .def("set", [](python::Stop& stop) { stop.asked = true; });
   python::add_study(module);
   python::add_simulation(module);
   python::add_tasks(module);

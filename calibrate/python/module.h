@@ -23,15 +23,11 @@ struct Stop {
   std::atomic<bool> asked = false;
 };
 
-/// Parses the output of Python's json.
-nlohmann::json parsed(const std::string& text);
-
 /// Description of a study or problem: {"title", "parameters", "readings", "budget_simulations", "screening"}.
 nlohmann::ordered_json description_json(const std::string& title, const std::vector<Parameter>& parameters,
                                         const std::vector<StudyReading>& readings, const SearchOptions& search);
 
 // Each adds the classes and functions of one file.
-void add_stop(pybind11::module_& module);
 void add_study(pybind11::module_& module);
 void add_simulation(pybind11::module_& module);
 void add_tasks(pybind11::module_& module);

@@ -39,22 +39,12 @@ ordered_json description_json(const std::string& title, const std::vector<Parame
   return out;
 }
 
-nlohmann::json parsed(const std::string& text) {
-  return nlohmann::json::parse(text);
-}
-
-void add_stop(py::module_& module) {
-  py::class_<Stop, std::shared_ptr<Stop>>(module, "Stop").def(py::init<>()).def("set", [](Stop& stop) {
-    stop.asked = true;
-  });
-}
-
 void add_study(py::module_& module) {
   py::class_<Study, std::shared_ptr<Study>>(module, "Study")
       .def_static("load", [](const std::string& file) { return value_or_throw(read_study(file)); })
       .def_static("from_json",
                   [](const std::string& text, const std::string& file) {
-                    return value_or_throw(study_from_json(parsed(text), file));
+                    return value_or_throw(study_from_json(nlohmann::json::parse(text), file));
                   })
       .def_readonly("content", &Study::content)
       .def("description", [](const Study& study) {
