@@ -23,11 +23,10 @@ class PackingNames {
   std::shared_ptr<const Packing> next() {
     auto packing = std::make_shared<const Packing>();
     const std::lock_guard lock(mutex_);
-    names_[packing.get()] = engine_ + "-" + std::to_string(names_.size());
-    kept_.push_back(packing);
+    names_[packing] = engine_ + "-" + std::to_string(names_.size());
     return packing;
   }
-  std::string of(const Packing* packing) const {
+  std::string of(const std::shared_ptr<const Packing>& packing) const {
     const std::lock_guard lock(mutex_);
     return names_.at(packing);
   }
@@ -35,8 +34,7 @@ class PackingNames {
  private:
   const std::string engine_;
   mutable std::mutex mutex_;
-  std::map<const Packing*, std::string> names_;
-  std::vector<std::shared_ptr<const Packing>> kept_;  // keeps their addresses unique
+  std::map<std::shared_ptr<const Packing>, std::string> names_;
 };
 
 /// Result of the Python function; empty if stopped. Throws std::runtime_error for a Python error, so that no
@@ -64,7 +62,7 @@ Engine engine_of(py::function ask, std::string name) {
   Engine engine;
   engine.prepare = [names](const Test&, const RunOptions&) { return names->next(); };
   engine.run = [names, function](const Test& test, const RunOptions& options) {
-    const std::string task = task_text(test, options, names->of(options.packing.get()));
+    const std::string task = task_text(test, options, names->of(options.packing));
     return answer_of_task(answer_to(*function, task, options)).outcome;
   };
   return engine;
