@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 #include "core/step/run.h"
 
@@ -91,19 +92,15 @@ Result<std::vector<CheckRow>> verify(const Case& test, const std::function<void(
   Faults faults;
   for (const Point& point : test.points) {
     const auto scene = scene_at(test, point);
-    if (!scene) {
-      faults.insert(faults.end(), scene.faults().begin(), scene.faults().end());
-      continue;
-    }
+    append(faults, scene);
+    if (!scene) continue;
     const Outcome outcome = simulate(scene.value());
     for (std::size_t c = 0; c < test.checks.size(); ++c) {
       auto row = compared(test.checks[c], point, scene.value(), outcome);
-      if (row) {
-        rows.push_back(std::move(row).value());
-        rows.back().check = c;
-      } else {
-        faults.insert(faults.end(), row.faults().begin(), row.faults().end());
-      }
+      append(faults, row);
+      if (!row) continue;
+      rows.push_back(std::move(row).value());
+      rows.back().check = c;
     }
     if (point_done) point_done();
   }
@@ -173,10 +170,8 @@ Result<std::vector<VerifiedCase>> verify_cases(const std::vector<std::string>& n
   std::size_t points = 0;
   for (const fs::path& file : files) {
     auto test = read_case(file);
-    if (!test.ok()) {
-      faults.insert(faults.end(), test.faults().begin(), test.faults().end());
-      continue;
-    }
+    append(faults, test);
+    if (!test) continue;
     points += test.value().points.size();
     cases.push_back({file, std::move(test).value(), {}});
   }
@@ -186,7 +181,7 @@ Result<std::vector<VerifiedCase>> verify_cases(const std::vector<std::string>& n
     if (rows.ok())
       one.rows = std::move(rows).value();
     else
-      for (Fault& fault : in_file(rows.faults(), one.file)) faults.push_back(std::move(fault));
+      append(faults, in_file(rows.faults(), one.file));
   }
   if (!faults.empty()) return faults;
   return cases;
