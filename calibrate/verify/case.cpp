@@ -132,7 +132,7 @@ constexpr std::array<Named<Transform>, 5> kTransforms{{{"shift", Transform::shif
                                                        {"mirror", Transform::mirror},
                                                        {"boost", Transform::boost},
                                                        {"lengthen", Transform::lengthen}}};
-constexpr std::array<Named<int>, 3> kAxes{{{"x", 0}, {"y", 1}, {"z", 2}}};
+constexpr std::array<Named<double Vec3::*>, 3> kAxes{{{"x", &Vec3::x}, {"y", &Vec3::y}, {"z", &Vec3::z}}};
 constexpr std::size_t kMostPoints = 100'000;
 
 void read_formula(ObjectReader& reader, ByFormula& by) {
@@ -144,10 +144,9 @@ void read_formula(ObjectReader& reader, ByFormula& by) {
       reader.fault("formula", "there is no formula " + in_quotes(name),
                    did_you_mean(name, names_of(formulas(), &Formula::name), "see pastefit verify --formulas"));
   }
-  int grain = 0, axis = 0;
+  int grain = 0;
   if (reader.integer("grain", grain, 0, 1, Need::optional)) by.arguments.grain = static_cast<std::size_t>(grain);
-  if (reader.choice("axis", axis, kAxes, Need::optional))
-    by.arguments.axis = kAxes[static_cast<std::size_t>(axis)].name;
+  reader.choice("axis", by.arguments.axis, kAxes, Need::optional);
   reader.number("gap_m", by.arguments.gap_m, {-1e3, 1e3}, Need::optional);
 }
 

@@ -27,10 +27,6 @@ double integral(const std::function<double(double)>& slope, double from, double 
   return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(slope, from, to);
 }
 
-double along(const Vec3& v, const std::string& axis) {
-  return axis == "x" ? v.x : axis == "y" ? v.y : v.z;
-}
-
 Fault outside(std::string what) {
   return {"expected.formula", std::move(what), "another scene, or another formula"};
 }
@@ -76,7 +72,7 @@ Result<double> collision_velocity(const Impact& scene, const Arguments& argument
   if (!on_first) return on_first.faults();
   const ImpactGrain& grain = scene.grains[arguments.grain];
   const double sign = arguments.grain == 0 ? 1 : -1;
-  return along(grain.velocity_m_s + (sign / mass_kg(scene, grain)) * on_first.value(), arguments.axis);
+  return (grain.velocity_m_s + (sign / mass_kg(scene, grain)) * on_first.value()).*arguments.axis;
 }
 
 Result<double> collision_spin(const Impact& scene, const Arguments& arguments) {
@@ -85,7 +81,7 @@ Result<double> collision_spin(const Impact& scene, const Arguments& arguments) {
   const ImpactGrain& grain = scene.grains[arguments.grain];
   // Lever and impulse both change sign for the second grain.
   const Vec3 twist = cross(pair_of(scene).normal, on_first.value());
-  return along(grain.spin_rad_s + (2.5 / (mass_kg(scene, grain) * grain.radius_m)) * twist, arguments.axis);
+  return (grain.spin_rad_s + (2.5 / (mass_kg(scene, grain) * grain.radius_m)) * twist).*arguments.axis;
 }
 
 // Cohesion and bridges
@@ -241,12 +237,12 @@ constexpr Formula kFormulas[] = {
     {"collision_spin", collision_spin, "w + 5/(2 m R) n x impulse, gross sliding"},
     {"initial_velocity",
      [](auto& scene, auto& arguments) -> Result<double> {
-       return along(scene.grains[arguments.grain].velocity_m_s, arguments.axis);
+       return scene.grains[arguments.grain].velocity_m_s.*arguments.axis;
      },
      "as at the start", FormulaNeeds::grain},
     {"initial_spin",
      [](auto& scene, auto& arguments) -> Result<double> {
-       return along(scene.grains[arguments.grain].spin_rad_s, arguments.axis);
+       return scene.grains[arguments.grain].spin_rad_s.*arguments.axis;
      },
      "as at the start", FormulaNeeds::grain},
     {"cohesive_overlap", cohesive_overlap, "at rest: (3 F_coh/(4 E* sqrt(R*)))^(2/3)"},

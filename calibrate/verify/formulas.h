@@ -13,7 +13,7 @@ namespace pastefit {
 /// Arguments of a closed form besides the scene.
 struct FormulaArguments {
   std::size_t grain = 0;
-  std::string axis = "x";  ///< "x", "y" or "z"
+  double Vec3::*axis = &Vec3::x;
   double gap_m = 0;
 };
 
@@ -27,8 +27,6 @@ Approach pair_of(const Impact& scene);
 double share_of(const Impact& scene);
 /// Relative speed of the pair after losing this work; 0 if the work exceeds its energy.
 double speed_after(const Approach& pair, double work_j);
-/// Component along "x", "y" or "z".
-double along(const Vec3& v, const std::string& axis);
 /// Integral of a smooth function.
 double integral(const std::function<double(double)>& slope, double from, double to);
 /// Fault of a scene outside the validity of a formula.

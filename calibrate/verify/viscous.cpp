@@ -99,12 +99,12 @@ constexpr Formula kViscous[] = {
     {"settled_overlap", settled_overlap, "-h0 exp(-m g t/(6 pi mu R^2)), without inertia", FormulaNeeds::wall},
     {"sheared_velocity",
      [](auto& scene, auto& arguments) -> Result<double> {
-       return along(sheared(scene, arguments.grain).velocity, arguments.axis);
+       return sheared(scene, arguments.grain).velocity.*arguments.axis;
      },
      "sliding at a gap: decays with 6 pi mu R* (8/15 ln(R*/h) + 0.9588)"},
     {"sheared_spin",
      [](auto& scene, auto& arguments) -> Result<double> {
-       return along(sheared(scene, arguments.grain).spin, arguments.axis);
+       return sheared(scene, arguments.grain).spin.*arguments.axis;
      },
      "the same of a spin, with the lever r + h/2"},
 };
