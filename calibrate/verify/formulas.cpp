@@ -307,8 +307,7 @@ Result<double> value_of(const Formula& formula, const Impact& scene, const Formu
 std::span<const Formula> formulas() {
   static const std::vector<Formula> all = [] {
     std::vector<Formula> rows(std::begin(kFormulas), std::end(kFormulas));
-    for (const auto more : {sticking_formulas(), yielding_formulas(), viscous_formulas()})
-      rows.insert(rows.end(), more.begin(), more.end());
+    for (const auto more : {sticking_formulas(), viscous_formulas()}) rows.insert(rows.end(), more.begin(), more.end());
     return rows;
   }();
   return all;

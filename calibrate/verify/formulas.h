@@ -46,9 +46,8 @@ Result<double> value_of(const Formula& formula, const Impact& scene, const Formu
 /// Every closed form that a case may name.
 std::span<const Formula> formulas();
 
-/// Those of one file each (sticking.cpp, yielding.cpp, viscous.cpp).
+/// Those of adhesive contacts, with and without yielding, and of viscous bridges.
 std::span<const Formula> sticking_formulas();
-std::span<const Formula> yielding_formulas();
 std::span<const Formula> viscous_formulas();
 
 }  // namespace pastefit
