@@ -43,7 +43,7 @@ const Parameter& fitted_parameter(const Card& card, std::string_view name) {
 }
 
 /// Moves every bound in the way that can be moved.
-std::optional<NextStep> widen_bounds(const Card& card, const std::string& calibrate) {
+std::optional<NextStep> widen_bounds(const Card& card, const std::string& resume) {
   std::string names, settings;
   for (const AtBound& one : parameters_at_bounds(card)) {
     const auto wider = wider_bound(fitted_parameter(card, one.parameter), one.upper);
@@ -52,36 +52,29 @@ std::optional<NextStep> widen_bounds(const Card& card, const std::string& calibr
     settings += with_setting("parameters." + one.parameter + (one.upper ? ".upper" : ".lower"), exact(*wider));
   }
   if (names.empty()) return std::nullopt;
-  return NextStep{"with wider bounds of " + names, calibrate + " --resume" + settings};
+  return NextStep{"with wider bounds of " + names, resume + settings};
 }
 
 /// Heaps shear off less with little sliding friction, and with rolling friction that the search may choose.
-std::optional<NextStep> hold_heaps_together(const Card& card, const std::string& calibrate) {
+std::optional<NextStep> hold_heaps_together(const Card& card, const std::string& resume) {
   constexpr double little_friction = 0.3;
   const Parameter &sliding = fitted_parameter(card, "friction"), &rolling = fitted_parameter(card, "rolling_friction");
   if (sliding.free && sliding.upper > little_friction && sliding.lower < little_friction)
     return NextStep{"with less sliding friction, which makes heaps shear off less often",
-                    calibrate + " --resume" + with_setting("parameters.friction.upper", exact(little_friction))};
+                    resume + with_setting("parameters.friction.upper", exact(little_friction))};
   if (!rolling.free && has_parameter(card, rolling.name)) {
     const Range range = sensible_range(rolling);
     return NextStep{"with free rolling friction, which keeps heaps together",
-                    calibrate + " --resume" +
-                        with_setting("parameters.rolling_friction",
-                                     "{\"free\": [" + exact(range.smallest) + ", " + exact(range.largest) + "]}")};
+                    resume + with_setting("parameters.rolling_friction",
+                                          "{\"free\": [" + exact(range.smallest) + ", " + exact(range.largest) + "]}")};
   }
   return std::nullopt;
 }
 
-std::optional<NextStep> more_packings(const Card& card, const std::string& calibrate) {
-  const std::size_t packings = card.confirmation.packings.size();
-  return NextStep{
-      "with more packings in the confirmation",
-      calibrate + " --resume" +
-          with_setting("search.confirmation_packings", std::to_string(2 * std::max<std::size_t>(packings, 2)))};
-}
-
-std::string larger_budget(const Card& card) {
-  return " --budget " + std::to_string(2 * card.search.budget);
+NextStep more_packings(const Card& card, const std::string& resume) {
+  const std::size_t packings = 2 * std::max<std::size_t>(card.confirmation.packings.size(), 2);
+  return {"with more packings in the confirmation",
+          resume + with_setting("search.confirmation_packings", std::to_string(packings))};
 }
 
 }  // namespace
@@ -89,16 +82,17 @@ std::string larger_budget(const Card& card) {
 std::vector<NextStep> next_steps(const Card& card, const std::string& calibrate, std::string_view out) {
   std::vector<NextStep> steps;
   if (card.interpolated || cause_unconfirmed(card).empty()) return steps;
+  const std::string resume = calibrate + " --resume";
   const bool stopped = card.search.status == name_of(CalibrationStatus::stopped);
-  if (stopped) steps.push_back({"from where it was stopped", calibrate + " --resume"});
+  if (stopped) steps.push_back({"from where it was stopped", resume});
   const Verdict readings = verdict_on_readings(evidence_of(card.tests));
   std::optional<NextStep> first;
-  if (card.confirmation.fresh && readings == Verdict::undecided) first = more_packings(card, calibrate);
-  if (!first && readings != Verdict::undecided) first = widen_bounds(card, calibrate);
-  if (!first && card.confirmation.fresh && readings == Verdict::meets) first = hold_heaps_together(card, calibrate);
+  if (card.confirmation.fresh && readings == Verdict::undecided) first = more_packings(card, resume);
+  if (!first && readings != Verdict::undecided) first = widen_bounds(card, resume);
+  if (!first && card.confirmation.fresh && readings == Verdict::meets) first = hold_heaps_together(card, resume);
   if (first) steps.push_back(std::move(*first));
   if (!stopped && card.search.status != name_of(CalibrationStatus::out_of_reach))
-    steps.push_back({"with more simulations", calibrate + " --resume" + larger_budget(card)});
+    steps.push_back({"with more simulations", resume + " --budget " + std::to_string(2 * card.search.budget)});
   steps.push_back({"to see every reason for doubt", "pastefit doctor " + shell_word_if_needed(out)});
   return steps;
 }

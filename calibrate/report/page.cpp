@@ -34,17 +34,9 @@ extern "C" const char pastefit_page_begin[], pastefit_page_end[];
 
 namespace pastefit {
 
-namespace {
-
-std::string_view empty_page() {
-  return {pastefit_page_begin, static_cast<std::size_t>(pastefit_page_end - pastefit_page_begin)};
-}
-
-}  // namespace
-
 std::string page_of(const Findings& findings, const std::string& command) {
   constexpr std::string_view kPlace = "<!--content-->";
-  const std::string_view page = empty_page();
+  const std::string_view page(pastefit_page_begin, static_cast<std::size_t>(pastefit_page_end - pastefit_page_begin));
   const std::size_t place = page.find(kPlace);
   if (place == std::string_view::npos) throw std::logic_error("the page has no place for its content");
   std::string out(page.substr(0, place));
