@@ -60,15 +60,6 @@ double deepest(const Card& card, const ContactModel& contact) {
   return std::pow(load / (pair.hertz * std::sqrt(radius / 2)), 2.0 / 3);
 }
 
-/// The card's parameters with the free ones of an equivalent material.
-std::vector<double> values_with(const Card& card, const std::vector<double>& free) {
-  std::vector<double> values = values_of(card.material);
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (card.material.parameters[i].free && next < free.size()) values[i] = free[next++];
-  return values;
-}
-
 }  // namespace
 
 ordered_json law_curves(const Card& card, const std::optional<Inference>& inference) {
@@ -85,10 +76,13 @@ ordered_json law_curves(const Card& card, const std::optional<Inference>& infere
     ContactModel contact;
   };
   std::vector<LawCurve> curves;
-  if (inference)
-    for (std::size_t i = 1; i < inference->family.size(); ++i)
-      curves.push_back({"equivalent material " + std::to_string(i), "equivalent",
-                        contact_of(values_with(card, inference->family[i].values), fitted.bridge.shape)});
+  const Study study = study_of(card);
+  for (std::size_t i = 1; inference && i < inference->family.size(); ++i) {
+    const UnitPoint& point = inference->family[i].point;
+    curves.push_back(
+        {"equivalent material " + std::to_string(i), "equivalent",
+         contact_of(values_at(study, {point.data(), static_cast<std::size_t>(point.size())}), fitted.bridge.shape)});
+  }
   if (fitted.bridge.shape != BridgeShape::none)
     for (const auto& shape : bridge_shapes)
       if (shape.value != BridgeShape::none && shape.value != fitted.bridge.shape)
