@@ -28,7 +28,6 @@ nlohmann::ordered_json description_json(const std::string& title, const std::vec
                                         const std::vector<StudyReading>& readings, const SearchOptions& search);
 
 // Each adds the classes and functions of one file.
-void add_study(pybind11::module_& module);
 void add_simulation(pybind11::module_& module);
 void add_tasks(pybind11::module_& module);
 void add_calibration(pybind11::module_& module);
