@@ -27,6 +27,12 @@ void for_fitted(const Card& card, See see) {
       if (one.measured && one.weight > 0 && !test.hold_out) see(test, one);
 }
 
+/// Adds words on what is fine to the numbers, and others to the notes.
+void enter_words(Diagnosis& out, bool fine, const std::string& words) {
+  if (!fine) return out.notes.push_back(words);
+  out.numbers += (out.numbers.empty() ? "" : "; ") + words;
+}
+
 Diagnosis heaps(const Card& card) {
   Diagnosis out{.name = "heaps sheared off",
                 .may_be_ignored = "if the laboratory's heaps sheared off as often",
@@ -126,11 +132,8 @@ void judge_scatter(const Card& card, Diagnosis& out, SampleIn sample_in) {
     const ReadingKind* kind = find_kind(kinds, one.name);
     const Sample sample = sample_in(one);
     if (!kind || kind->published_deviation == 0 || sample.count < 2) return;
-    const std::string words = beside_published(reading_name(test, one.name), sample.standard_deviation, *kind);
-    if (least_deviation(sample) > kind->published_deviation)
-      out.notes.push_back(words);
-    else
-      out.numbers += (out.numbers.empty() ? "" : "; ") + words;
+    enter_words(out, !(least_deviation(sample) > kind->published_deviation),
+                beside_published(reading_name(test, one.name), sample.standard_deviation, *kind));
   });
 }
 
@@ -192,13 +195,8 @@ Diagnosis validation(const Card& card) {
   Diagnosis out{.name = "validation test",
                 .may_be_ignored = "if the card is not used for such a test",
                 .page = "several-tests.md"};
-  for (const CardTest& test : card.tests) {
-    if (!test.within_noise) continue;
-    if (*test.within_noise)
-      out.numbers += (out.numbers.empty() ? "" : "; ") + hold_out_in_words(test);
-    else
-      out.notes.push_back(hold_out_in_words(test));
-  }
+  for (const CardTest& test : card.tests)
+    if (test.within_noise) enter_words(out, *test.within_noise, hold_out_in_words(test));
   if (out.numbers.empty()) out.unknown = "the study has no test with \"hold_out\"";
   return out;
 }
@@ -217,12 +215,9 @@ Diagnosis grains(const Card& card) {
     const auto opening_m = std::visit([](const auto& one) { return narrowest_opening_m(one); }, test.test);
     if (!opening_m) continue;
     const double across = *opening_m / (2 * largest_radius(specimen_of(test.test).grains));
-    const std::string words = heading_of(test) + plain(grains_needed(test.test), 2) + " grains, " + plain(across, 2) +
-                              " of the largest across the narrowest opening";
-    if (across < kGrainsAcross)
-      out.notes.push_back(words);
-    else
-      out.numbers += (out.numbers.empty() ? "" : "; ") + words;
+    enter_words(out, !(across < kGrainsAcross),
+                heading_of(test) + plain(grains_needed(test.test), 2) + " grains, " + plain(across, 2) +
+                    " of the largest across the narrowest opening");
   }
   if (out.numbers.empty()) out.unknown = "these tests have no opening";
   return out;
@@ -247,8 +242,8 @@ Diagnosis time_step(const Card& card, std::span<const StoredEvaluation> evaluati
     }
   if (out.notes.empty()) out.numbers = "no simulation created energy";
   if (whole > 0)
-    out.numbers += (out.numbers.empty() ? "" : "; ") +
-                   format("at most %.2g %% of the energy unexplained, in %d complete runs", 100 * largest, whole);
+    enter_words(out, true,
+                format("at most %.2g %% of the energy unexplained, in %d complete runs", 100 * largest, whole));
   return out;
 }
 
