@@ -135,33 +135,31 @@ constexpr std::array<Named<Transform>, 5> kTransforms{{{"shift", Transform::shif
 constexpr std::array<Named<double Vec3::*>, 3> kAxes{{{"x", &Vec3::x}, {"y", &Vec3::y}, {"z", &Vec3::z}}};
 constexpr std::size_t kMostPoints = 100'000;
 
-void read_formula(ObjectReader& reader, ByFormula& by) {
+void read_formula(ObjectReader& reader, Check& check) {
   std::string name;
   if (reader.text("formula", name, Need::required)) {
     for (const Formula& formula : formulas())
-      if (formula.name == name) by.formula = &formula;
-    if (!by.formula)
+      if (formula.name == name) check.formula = &formula;
+    if (!check.formula)
       reader.fault("formula", "there is no formula " + in_quotes(name),
                    did_you_mean(name, names_of(formulas(), &Formula::name), "see pastefit verify --formulas"));
   }
   int grain = 0;
-  if (reader.integer("grain", grain, 0, 1, Need::optional)) by.arguments.grain = static_cast<std::size_t>(grain);
-  reader.choice("axis", by.arguments.axis, kAxes, Need::optional);
-  reader.number("gap_m", by.arguments.gap_m, {-1e3, 1e3}, Need::optional);
+  if (reader.integer("grain", grain, 0, 1, Need::optional)) check.arguments.grain = static_cast<std::size_t>(grain);
+  reader.choice("axis", check.arguments.axis, kAxes, Need::optional);
+  reader.number("gap_m", check.arguments.gap_m, {-1e3, 1e3}, Need::optional);
 }
 
 void read_expected(ObjectReader& reader, Check& check) {
   const json* given = reader.content("expected");
-  double value = 0;
-  if (reader.has("at_most")) {
+  check.at_most = reader.has("at_most");
+  if (check.at_most) {
     reader.refuse("expected", "stands beside a bound", "give \"expected\" or \"at_most\"");
-    if (reader.number("at_most", value, {}, Need::required)) check.expected = AtMost{value};
+    reader.number("at_most", check.expected, {}, Need::required);
   } else if (given && given->is_object()) {
-    ByFormula by;
-    reader.object("expected", Need::required, [&](ObjectReader& inner) { read_formula(inner, by); });
-    if (by.formula) check.expected = by;
-  } else if (reader.number("expected", value, {}, Need::required)) {
-    check.expected = value;
+    reader.object("expected", Need::required, [&](ObjectReader& inner) { read_formula(inner, check); });
+  } else {
+    reader.number("expected", check.expected, {}, Need::required);
   }
 }
 
@@ -176,7 +174,7 @@ void read_check(ObjectReader& reader, Check& check) {
   }
   reader.text("reading", check.reading, Need::required);
   read_expected(reader, check);
-  if (reader.has("at_most")) return;
+  if (check.at_most) return;
   check.absolute = reader.has("absolute_tolerance");
   reader.number("absolute_tolerance", check.tolerance, {0, 1e12}, Need::optional);
   if (check.absolute)

@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "calibrate/verify/formulas.h"
@@ -34,21 +33,14 @@ Impact transformed(const Impact& test, Transform transform);
 /// radius), over the largest velocity.
 double difference(const Impact& test, const Outcome& before, Transform transform, const Outcome& after);
 
-/// Expected value of a reading: a number, an upper bound, or a formula.
-struct AtMost {
-  double bound = 0;
-};
-struct ByFormula {
-  const Formula* formula = nullptr;
-  FormulaArguments arguments;
-};
-using Expected = std::variant<double, AtMost, ByFormula>;
-
 /// One claim of a case.
 struct Check {
   std::string reading;                       ///< of the impact apparatus; empty with `unchanged_under`
   std::optional<Transform> unchanged_under;  ///< the result is invariant under this transformation
-  Expected expected = 0.0;
+  double expected = 0;                       ///< value of the reading, unless a formula gives it
+  bool at_most = false;                      ///< `expected` is an upper bound
+  const Formula* formula = nullptr;
+  FormulaArguments arguments;  ///< of the formula
   double tolerance = 0;
   bool absolute = false;        ///< in the unit of the reading; otherwise relative to the expected value
   std::string known_deviation;  ///< reason for an accepted failure of the engine; empty: the check must pass

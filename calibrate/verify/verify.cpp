@@ -16,10 +16,8 @@ namespace {
 constexpr double kPublishedDigits = 1e-3;  // figures have at least four digits; their constants differ
 
 Result<double> expected_value(const Check& check, const Impact& scene, const Point& point) {
-  if (const auto* value = std::get_if<double>(&check.expected)) return *value;
-  if (const auto* most = std::get_if<AtMost>(&check.expected)) return most->bound;
-  const auto& by = std::get<ByFormula>(check.expected);
-  auto value = value_of(*by.formula, scene, by.arguments);
+  if (!check.formula) return check.expected;
+  auto value = value_of(*check.formula, scene, check.arguments);
   if (!value) {
     Faults faults = value.faults();
     for (Fault& fault : faults) fault.where = check.reading + " at \"" + point.label + "\": " + fault.where;
@@ -37,7 +35,7 @@ Result<double> expected_value(const Check& check, const Impact& scene, const Poi
 void judge(const Check& check, CheckRow& row) {
   row.tolerance = check.tolerance;
   row.absolute = check.absolute;
-  row.bound = std::holds_alternative<AtMost>(check.expected);
+  row.bound = check.at_most;
   row.error = row.bound ? std::max(row.got - row.expected, 0.0) : std::fabs(row.got - row.expected);
   if (!row.absolute && !row.bound) row.error /= std::fabs(row.expected);
   // A NaN error must not pass.
