@@ -76,8 +76,7 @@ std::string card_with_parameters(const std::string& card_text, const std::map<st
 
 void add_cards(py::module_& module) {
   const py::call_guard<py::gil_scoped_release> unlocked;
-  module.def("read_card",
-             [](const std::string& file) { return ordered_json(to_json(value_or_throw(read_card(file)))).dump(); });
+  module.def("read_card", [](const std::string& file) { return to_json(value_or_throw(read_card(file))).dump(); });
   module.def("card_from_json", [](const std::string& text) { return to_json(card_in(text)).dump(); });
   module.def("card_summary", [](const std::string& text) { return summary_of(card_in(text)); });
   module.def("card_verdict", [](const std::string& text) { return verdict_of(card_in(text)); });

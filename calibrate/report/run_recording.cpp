@@ -129,10 +129,10 @@ RunRecording RunRecorder::film() && {
     (is_filling(part.frames.front()) ? filling_s : test_s) += length_s;
   }
   const double count = pictures_for(film_.grains());
-  const double share_of_filling = filling_s > 0 && test_s > 0 ? 0.25 : 1;
+  const bool both = filling_s > 0 && test_s > 0;
   for (RecordingPart& part : film_.parts) {
     const bool filling = is_filling(part.frames.front());
-    const double share = filling ? share_of_filling : test_s > 0 && filling_s > 0 ? 0.75 : 1;
+    const double share = !both ? 1 : filling ? 0.25 : 0.75;
     thin(part, (filling ? filling_s : test_s) / (share * count));
   }
   return std::move(film_);
@@ -277,30 +277,26 @@ std::string deflated(const std::string& bytes) {
   return out;
 }
 
-ordered_json json_of(const Vec3& v) {
-  return {v.x, v.y, v.z};
-}
-
 ordered_json json_of(const Wall& wall) {
   ordered_json out{{"name", wall.name}};
   if (const auto* plane = std::get_if<Plane>(&wall.shape)) {
     out["shape"] = "plane";
-    out["point_m"] = json_of(plane->point);
-    out["normal"] = json_of(plane->normal);
+    out["point_m"] = places_of(plane->point);
+    out["normal"] = places_of(plane->normal);
   } else if (const auto* plate = std::get_if<Plate>(&wall.shape)) {
     out["shape"] = "plate";
-    out["centre_m"] = json_of(plate->centre);
-    out["along"] = json_of(plate->along);
-    out["across"] = json_of(plate->across);
+    out["centre_m"] = places_of(plate->centre);
+    out["along"] = places_of(plate->along);
+    out["across"] = places_of(plate->across);
     out["half_m"] = {plate->half_length, plate->half_width};
   } else if (const auto* shell = std::get_if<Shell>(&wall.shape)) {
     out["shape"] = "shell";
-    out["base_m"] = json_of(shell->base);
+    out["base_m"] = places_of(shell->base);
     out["radii_m"] = {shell->base_radius, shell->top_radius};
     out["height_m"] = shell->height;
   } else if (const auto* ribs = std::get_if<Ribs>(&wall.shape)) {
     out["shape"] = "ribs";
-    out["base_m"] = json_of(ribs->base);
+    out["base_m"] = places_of(ribs->base);
     out["thickness_m"] = ribs->thickness;
     out["height_m"] = ribs->height;
     out["pitch_m"] = ribs->pitch;
