@@ -142,14 +142,11 @@ std::string verdict_on_fitted(const Card& card) {
   if (!confirmation.fresh)
     return "Not confirmed on fresh packings: " + largest + " (mean over packings that the search has used). " +
            card.search.reason;
-  if (only_heaps_refute(card))
-    return "The readings are within their tolerances, but " + cause_unconfirmed(card) + ": " + largest + ". " +
-           card.search.reason;
+  const std::string why = cause_unconfirmed(card) + ": " + largest + ". " + card.search.reason;
+  if (only_heaps_refute(card)) return "The readings are within their tolerances, but " + why;
   if (confirmation.error <= 1 && !confirmation.refuted)
-    return "It is uncertain whether the material reproduces the measurement: " + cause_unconfirmed(card) + ": " +
-           largest + ". " + card.search.reason;
-  return "The material does not reproduce the measurement: " + cause_unconfirmed(card) + ": " + largest + ". " +
-         card.search.reason;
+    return "It is uncertain whether the material reproduces the measurement: " + why;
+  return "The material does not reproduce the measurement: " + why;
 }
 
 std::string reservation_lines(const Card& card) {
