@@ -32,7 +32,7 @@ KEPT = {
     "calibrate/store/store.cpp": {"observables"},  # column of stores
     "calibrate/python/pastefit/search.py": {"observables"},  # gest-api's word in a VOCS
     "calibrate/manual/python.md": {"observables"},
-    "calibrate/python/result_json.cpp": {"best_miss"},  # key of what `progress` is told
+    "calibrate/python/module.cpp": {"best_miss"},  # key of what `progress` is told
     "calibrate/python/pastefit/calibration.py": {"best_miss"},
     "calibrate/python/pastefit/progress.py": {"best_miss"},
     "calibrate/report/README.md": {"Observable"},  # Observable Plot
