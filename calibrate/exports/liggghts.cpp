@@ -139,12 +139,11 @@ std::vector<std::string> liggghts_losses(const ExportScene& scene, const Written
   std::vector<std::string> notes = differences_of_sticking(
       scene, written, "LIGGGHTS", contact.friction_basis == FrictionBasis::elastic ? deck.load_n : 0);
   if (fit) {
-    const auto& difference = fit->difference;
     notes.push_back(
         format("LIGGGHTS has no such bridge. Its capillary bridge (easo, Soulie et al. 2006) was fitted "
                "to the card's curve: it differs by up to %.1f %% of the peak force, %.1f %% in root mean "
                "square, %+.1f %% in work.",
-               100 * difference.largest, 100 * difference.root_mean_square, 100 * difference.work));
+               100 * fit->largest, 100 * fit->root_mean_square, 100 * fit->work));
     notes.push_back(
         format("Liquid volume %.4g m^3 a bridge and surface tension %.4g N/m are numbers of the fit, not of a "
                "liquid. The contact angle is 0: at others LIGGGHTS 3.8.0 is wrong, by 27 %% at 30 degrees.",

@@ -6,7 +6,7 @@
 
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
-#include "calibrate/exports/soulie.h"
+#include "calibrate/exports/nearest_law.h"
 
 namespace pastefit {
 

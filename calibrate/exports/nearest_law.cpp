@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -207,6 +208,54 @@ std::string note_of_constant_torque(const ExportScene& scene, double load) {
       "The card's rolling resistance is a torque of constant size against the spin. In its place stands a spring that "
       "slips at the same moment; two mean grains under %.3g N turn by %.2g rad until it does.",
       load, turn);
+}
+
+double SoulieBridge::rupture_gap_m() const {
+  return std::cbrt(volume_m3);
+}
+
+double SoulieBridge::force_n(double gap) const {
+  if (gap >= rupture_gap_m()) return 0;
+  const double v = volume_m3 / (radius_m * radius_m * radius_m), ln = std::log(v);
+  const double a = -1.1 * std::pow(v, -0.53), b = 0.48 - 0.0082 * ln, c = 0.078 + 0.0018 * ln;
+  return pi * surface_tension_n_m * radius_m * (std::exp(a * gap / radius_m + b) + c);
+}
+
+SoulieFit fit_soulie(const ContactModel& contact, double radius) {
+  constexpr int kGaps = 400, kVolumes = 200;
+  const GrainPair pair{radius, radius, radius};
+  const double reach = bridge_gaps(contact, pair).rupture_m, peak = attraction_n(contact, pair, 0);
+  const double farthest = 1.5 * reach;
+  std::vector<double> gaps, card;
+  double card_work = 0;
+  for (int i = 0; i < kGaps; ++i) {
+    gaps.push_back(farthest * (i + 0.5) / kGaps);
+    card.push_back(attraction_n(contact, pair, -gaps.back()));
+    card_work += card.back() * farthest / kGaps;
+  }
+  SoulieFit best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int n = 0; n < kVolumes; ++n) {
+    const double rupture = reach * (0.5 + n / (kVolumes - 1.0));
+    SoulieBridge bridge{radius, rupture * rupture * rupture, 1};
+    double both = 0, own = 0, squares = 0, largest = 0, work = 0;
+    for (std::size_t i = 0; i < gaps.size(); ++i) {
+      const double force = bridge.force_n(gaps[i]);
+      both += force * card[i];
+      own += force * force;
+    }
+    bridge.surface_tension_n_m = both / own;
+    for (std::size_t i = 0; i < gaps.size(); ++i) {
+      const double fitted = bridge.force_n(gaps[i]);
+      squares += (fitted - card[i]) * (fitted - card[i]) / kGaps;
+      largest = std::max(largest, std::abs(fitted - card[i]));
+      work += fitted * farthest / kGaps;
+    }
+    if (squares >= least) continue;
+    least = squares;
+    best = {bridge, largest / peak, std::sqrt(squares) / peak, work / card_work - 1};
+  }
+  return best;
 }
 
 }  // namespace pastefit
