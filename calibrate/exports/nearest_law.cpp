@@ -27,12 +27,6 @@ void look(T chosen, const std::vector<T>& known, const std::array<Named<T>, N>& 
                     "export to another target, or calibrate with " + key + " " + listed(known, quoted, " or ")});
 }
 
-/// Force at an overlap during separation [N], repulsion positive.
-double force_apart(NormalLaw normal, const PairConstants& pair, double effective_radius, double overlap) {
-  return with_law(NormalLaws{}, normal,
-                  [&](auto law) { return law.at(pair, std::sqrt(effective_radius), overlap, 1.0).force; });
-}
-
 /// `pair`: constants of reference bodies with this R*.
 Sticking sticking(NormalLaw normal, const PairConstants& pair, double effective_radius) {
   if (acting(normal, pair) == NormalLaw::hertz) return {};
@@ -60,15 +54,10 @@ Sticking sticking(NormalLaw normal, const PairConstants& pair, double effective_
   });
 }
 
-/// Constants of two grains with this R*, as reference grains.
-PairConstants grains_of(const ContactModel& contact, double effective_radius) {
-  return grain_pair(contact, 2 * effective_radius);
-}
-
 }  // namespace
 
 Sticking sticking_of(const ContactModel& contact, double effective_radius) {
-  return sticking(contact.normal, grains_of(contact, effective_radius), effective_radius);
+  return sticking(contact.normal, grain_pair(contact, 2 * effective_radius), effective_radius);
 }
 
 Sticking sticking_of(const ContactModel& contact, const WallContact& wall, double radius) {
@@ -80,10 +69,6 @@ Distances two_grain_distances(const ContactModel& contact, double radius) {
   const double reach = std::max({bridge_gaps(contact, {radius, radius, radius}).rupture_m, grains.part_gap_m});
   return {2 * radius - std::max(0.05 * radius, 1.2 * grains.resting_overlap_m),
           2 * radius + 1.05 * std::max(reach, 0.05 * radius)};
-}
-
-double dmt_surface_energy(double pull_off, double effective_radius) {
-  return pull_off / (4 * pi * effective_radius);
 }
 
 double sjkr_energy_density(double pull_off, double effective_radius, double effective_modulus) {
@@ -99,7 +84,7 @@ ContactModel with_nearest_law(const ContactModel& contact, NormalLaw law, double
   out.normal = law;
   out.surface_energy_j_m2 = out.cohesion_energy_density_pa = 0;
   if (law == NormalLaw::dmt)
-    out.surface_energy_j_m2 = dmt_surface_energy(pull_off, effective_radius);
+    out.surface_energy_j_m2 = pull_off / (4 * pi * effective_radius);
   else
     out.cohesion_energy_density_pa =
         sjkr_energy_density(pull_off, effective_radius, 0.75 * grain_pair(contact, radius).hertz);
@@ -107,14 +92,8 @@ ContactModel with_nearest_law(const ContactModel& contact, NormalLaw law, double
 }
 
 double held_normal_force_n(const ContactModel& contact, const Sticking& grains) {
-  switch (contact.friction_basis) {
-    case FrictionBasis::elastic:
-      return grains.load_n;
-    case FrictionBasis::total:
-      return grains.reserve_n;
-    default:
-      return 0;
-  }
+  if (contact.friction_basis == FrictionBasis::elastic) return grains.load_n;
+  return contact.friction_basis == FrictionBasis::total ? grains.reserve_n : 0;
 }
 
 std::vector<std::string> differences_of_sticking(const ExportScene& scene, const ContactModel& written,
@@ -168,9 +147,12 @@ ExportFile sticking_curves(const ExportScene& scene, const ContactModel& written
   for (int i = 0; i < kPoints; ++i) {
     const double overlap = -reach + (deepest + reach) * i / (kPoints - 1);
     text += format("%.17g", overlap);
-    for (const ContactModel* contact : {&scene.contact(), &written})
-      text += format(",%.17g",
-                     force_apart(contact->normal, grains_of(*contact, effective_radius), effective_radius, overlap));
+    for (const ContactModel* contact : {&scene.contact(), &written}) {
+      const PairConstants pair = grain_pair(*contact, radius);
+      text += format(",%.17g", with_law(NormalLaws{}, contact->normal, [&](auto law) {
+                       return law.at(pair, std::sqrt(effective_radius), overlap, 1.0).force;
+                     }));
+    }
     text += "\n";
   }
   return {"curves.csv", text};

@@ -49,16 +49,13 @@ struct Distances {
 };
 Distances two_grain_distances(const ContactModel& contact, double radius_m);
 
-/// Surface energy [J/m^2] of DMT with this pull-off force, 4 pi gamma R*.
-double dmt_surface_energy(double pull_off_n, double effective_radius_m);
-
 /// Cohesion energy density [Pa] of SJKR with this pull-off force: (3 F E*^2/(2 pi^3 R*^2))^(1/3), the inverse of the
 /// largest attraction 2/3 pi^3 k^3 R*^2/E*^2. As a substitute for JKR, F = 3 pi gamma R*: (9 gamma E*^2/(2 pi^2
 /// R*))^(1/3).
 double sjkr_energy_density(double pull_off_n, double effective_radius_m, double effective_modulus_pa);
 
-/// The card's contact with `law`, DMT or SJKR, as a substitute with the same pull-off of two mean grains. Unchanged if
-/// the card has that law or no adhesion.
+/// The card's contact with `law`, DMT (pull-off 4 pi gamma R*) or SJKR, as a substitute with the same pull-off of two
+/// mean grains. Unchanged if the card has that law or no adhesion.
 ContactModel with_nearest_law(const ContactModel& contact, NormalLaw law, double radius_m);
 
 /// Differences in numbers: for two mean grains overlap at rest, attraction at touch, gap and work of separation; for
