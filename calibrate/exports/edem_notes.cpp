@@ -5,7 +5,6 @@
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/nearest_law.h"
-#include "calibrate/exports/parameter_table.h"
 #include "calibrate/verify/force_curve.h"
 
 namespace pastefit {

@@ -1,8 +1,7 @@
-#include "calibrate/exports/parameter_table.h"
-
 #include "calibrate/base/embedded_text.h"
 #include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
+#include "calibrate/exports/export.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/exports/nearest_law.h"
 #include "calibrate/verify/force_curve.h"
@@ -18,18 +17,8 @@ struct ParameterRow {
   std::string meaning;
 };
 
-void add_wall(std::vector<ParameterRow>& rows, const std::string& name, const WallContact& wall) {
-  rows.push_back({name + ".youngs_modulus_pa", wall.youngs_modulus_pa, "of the wall"});
-  rows.push_back({name + ".poissons_ratio", wall.poissons_ratio, "of the wall"});
-  rows.push_back({name + ".restitution", wall.restitution, "grain on wall"});
-  rows.push_back({name + ".friction", wall.friction, "grain on wall"});
-  rows.push_back({name + ".rolling_friction", wall.rolling_friction, "grain on wall"});
-  rows.push_back({name + ".cohesion_factor", wall.cohesion_factor, "share of the grains' attraction that acts here"});
-}
-
-void add_bridge(std::vector<ParameterRow>& rows, const ContactModel& contact, double radius) {
+void add_bridge(std::vector<ParameterRow>& rows, const ContactModel& contact, const GrainPair& pair) {
   const Bridge& bridge = contact.bridge;
-  const GrainPair pair{radius, radius, radius};
   const BridgeGaps gaps = bridge_gaps(contact, pair);
   rows.push_back({"cohesion_n", cohesion_n(contact, pair), "constant attraction of overlapping grains"});
   if (bridge.shape == BridgeShape::polynomial)
@@ -38,7 +27,8 @@ void add_bridge(std::vector<ParameterRow>& rows, const ContactModel& contact, do
   if (bridge.shape == BridgeShape::capillary)
     rows.insert(rows.end(), {{"liquid_volume_m3", bridge.liquid_volume_m3, "of a bridge"},
                              {"surface_tension_n_m", bridge.surface_tension_n_m, "of the liquid"}});
-  rows.insert(rows.end(), {{"c_n", attraction_at_touch(bridge, radius), "attraction of two grains that just touch"},
+  rows.insert(rows.end(), {{"c_n", attraction_at_touch(bridge, pair.reference_radius_m),
+                            "attraction of two grains that just touch"},
                            {"d_c_m", -gaps.rupture_m, "overlap at which the bridge ruptures (negative: a gap)"},
                            {"offset_m", bridge.offset_m, "thickness of the liquid shell"},
                            {"formation_gap_m", gaps.formation_m, "gap at which a bridge forms"}});
@@ -69,20 +59,19 @@ std::string laws_chosen(const ContactModel& contact) {
 
 /// Contact laws, walls, grains and apparatus of the test in SI, for grains of mean radius.
 std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
-  const Specimen& specimen = specimen_of(scene.test);
-  const ContactModel& contact = specimen.contact;
-  const double radius = specimen.grains.radius_m;
+  const ContactModel& contact = scene.contact();
   std::vector<ParameterRow> rows{
-      {"grain_radius_m", radius, "mean radius, to which the bridge's numbers belong"},
+      {"grain_radius_m", scene.radius_m(), "mean radius, to which the bridge's numbers belong"},
       {"grain_density_kg_m3", scene.card_density_kg_m3.value_or(scene.grain_density_kg_m3), "of the grains"},
-      {"bulk_density_kg_m3", specimen.bulk_density_kg_m3, "of the material as the laboratory prepares it"},
+      {"bulk_density_kg_m3", specimen_of(scene.test).bulk_density_kg_m3,
+       "of the material as the laboratory prepares it"},
       {"youngs_modulus_pa", contact.youngs_modulus_pa, "of the grains"},
       {"poissons_ratio", contact.poissons_ratio, "of the grains"},
       {"restitution", contact.restitution, "grain on grain, without attraction"},
       {"friction", contact.friction, "grain on grain"},
       {"rolling_friction", contact.rolling_friction, "grain on grain, lever over effective radius r1 r2/(r1 + r2)"},
       {"time_step_s", deck_time_step_s(scene), "at most: a tenth of the Rayleigh time"}};
-  if (const GrainSizes& grains = specimen.grains; grains.distribution != SizeDistribution::mono)
+  if (const GrainSizes& grains = scene.grains(); grains.distribution != SizeDistribution::mono)
     rows.insert(rows.begin() + 1,
                 {{"smallest_radius_m", grains.smallest_m, "of the grains"},
                  {"largest_radius_m", grains.largest_m,
@@ -95,31 +84,28 @@ std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
     rows.insert(rows.end(), {{"plasticity_ratio", contact.plasticity_ratio, "l = 1 - k1/k2"},
                              {"adhesion_ratio", contact.adhesion_ratio, "kc/k1"},
                              {"cohesion_n", cohesion_n(contact, scene.mean_pair()), "constant pull-off"}});
-  if (contact.bridge.shape != BridgeShape::none) add_bridge(rows, contact, radius);
+  if (contact.bridge.shape != BridgeShape::none) add_bridge(rows, contact, scene.mean_pair());
   if (const auto* slump = scene.slump())
     rows.insert(rows.end(), {{"mould_base_radius_m", slump->mould.base_radius_m, "apparatus"},
                              {"mould_top_radius_m", slump->mould.top_radius_m, "apparatus"},
                              {"mould_height_m", slump->mould.height_m, "apparatus"},
                              {"lift_velocity_m_s", slump->lift_velocity_m_s, "of the mould"}});
-  for (const ExportWall& wall : scene.walls()) add_wall(rows, wall.name, wall.contact);
+  for (const auto& [name, wall] : scene.walls())
+    rows.insert(rows.end(),
+                {{name + ".youngs_modulus_pa", wall.youngs_modulus_pa, "of the wall"},
+                 {name + ".poissons_ratio", wall.poissons_ratio, "of the wall"},
+                 {name + ".restitution", wall.restitution, "grain on wall"},
+                 {name + ".friction", wall.friction, "grain on wall"},
+                 {name + ".rolling_friction", wall.rolling_friction, "grain on wall"},
+                 {name + ".cohesion_factor", wall.cohesion_factor, "share of the grains' attraction that acts here"}});
   return rows;
-}
-
-/// "name,value,meaning" with header.
-ExportFile parameters_csv(const ExportScene& scene) {
-  std::string text = "name,value,meaning\n";
-  for (const auto& row : parameter_rows(scene))
-    text += row.name + "," + exact(row.value) + ",\"" + row.meaning + "\"\n";
-  return {"parameters.csv", text};
 }
 
 }  // namespace
 
 ExportFile force_csv(const ExportScene& scene) {
-  const Specimen& specimen = specimen_of(scene.test);
-  const double radius = specimen.grains.radius_m;
   std::string text = "overlap_m,attraction_n,repulsion_n\n";
-  for (const auto& point : force_table(specimen.contact, {radius, radius, radius}, 0.1 * radius, 2001))
+  for (const auto& point : force_table(scene.contact(), scene.mean_pair(), 0.1 * scene.radius_m(), 2001))
     text += exact(point.overlap_m) + "," + exact(point.attraction_n) + "," + exact(point.repulsion_n) + "\n";
   return {"force.csv", text};
 }
@@ -134,7 +120,10 @@ ExportFile grains_csv(const ExportScene& scene) {
 }
 
 std::vector<ExportFile> law_files(const ExportScene& scene, std::vector<ExportFile> files) {
-  files.push_back(parameters_csv(scene));
+  std::string parameters = "name,value,meaning\n";
+  for (const auto& row : parameter_rows(scene))
+    parameters += row.name + "," + exact(row.value) + ",\"" + row.meaning + "\"\n";
+  files.push_back({"parameters.csv", parameters});
   if (scene.contact().normal == NormalLaw::hertz) files.push_back(force_csv(scene));
   if (!scene.packing.centres.empty()) files.push_back(grains_csv(scene));
   return files;
@@ -151,14 +140,10 @@ std::string normal_in_words(NormalLaw normal) {
 }
 
 std::string rolling_in_words(RollingModel rolling) {
-  switch (rolling) {
-    case RollingModel::spring_dashpot:
-      return "  d > 0, rolling     spring 2.25 S_n (mu_r R*)^2 and dashpot, at most mu_r N R* (Ai et al. 2011)";
-    case RollingModel::constant_torque:
-      return "  d > 0, rolling     torque mu_r N R* against the relative spin";
-    default:
-      return "";
-  }
+  if (rolling == RollingModel::none) return "";
+  return rolling == RollingModel::spring_dashpot
+             ? "  d > 0, rolling     spring 2.25 S_n (mu_r R*)^2 and dashpot, at most mu_r N R* (Ai et al. 2011)"
+             : "  d > 0, rolling     torque mu_r N R* against the relative spin";
 }
 
 }  // namespace
@@ -189,13 +174,12 @@ Result<Export> export_csv(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
   const KnownLaws known{"the force table", {NormalLaw::hertz, NormalLaw::epa, NormalLaw::luding}, kAllRolling};
   if (Faults faults = unknown_laws(contact, known); !faults.empty()) return faults;
-  if (yields(contact.normal))
-    return Export{law_files(scene),
-                  {"The laws: " + laws_chosen(contact) + ".",
-                   "There is no force table: the force depends on how deep the grains were pressed before."}};
-  return Export{law_files(scene),
-                {"The laws: " + laws_chosen(contact) + ".",
-                 "The force table has no memory: when a bridge forms is said by formation_gap_m in parameters.csv."}};
+  return Export{
+      law_files(scene),
+      {"The laws: " + laws_chosen(contact) + ".",
+       yields(contact.normal)
+           ? "There is no force table: the force depends on how deep the grains were pressed before."
+           : "The force table has no memory: when a bridge forms is said by formation_gap_m in parameters.csv."}};
 }
 
 }  // namespace pastefit

@@ -5,7 +5,6 @@
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/exports/nearest_law.h"
-#include "calibrate/exports/parameter_table.h"
 #include "calibrate/store/program.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"

@@ -7,7 +7,6 @@
 #include "calibrate/base/text.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/nearest_law.h"
-#include "calibrate/exports/parameter_table.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/verify/force_curve.h"
