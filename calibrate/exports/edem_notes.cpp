@@ -11,16 +11,11 @@ namespace pastefit {
 
 namespace {
 
-std::string grains_in_edem(const ContactModel& contact) {
-  return format("shear modulus %.6g MPa, Poisson's ratio %.6g, restitution %.6g,\n   static friction %.6g",
-                1e-6 * shear_modulus_pa(contact), contact.poissons_ratio, contact.restitution, contact.friction);
-}
-
 std::string rolling_in_edem(const ContactModel& contact) {
   if (contact.rolling == RollingModel::none || contact.rolling_friction == 0) return "2. Rolling friction: none.\n";
-  const bool spring = contact.rolling == RollingModel::spring_dashpot;
   return format("2. Rolling friction: %.6g, with EDEM's rolling model ", contact.rolling_friction) +
-         (spring ? "\"Type C\" (a spring and a dashpot" : "\"RVD\" (a constant torque against the relative spin") +
+         (contact.rolling == RollingModel::spring_dashpot ? "\"Type C\" (a spring and a dashpot"
+                                                          : "\"RVD\" (a constant torque against the relative spin") +
          ",\n   lever R* = r1 r2/(r1 + r2)). Not \"Standard Rolling Friction\": it takes the distance to the centre "
          "and\n"
          "   each body's own spin, and is twice as strong between equal grains.\n";
@@ -38,13 +33,21 @@ std::string walls_in_edem(const ExportScene& scene, double surface_energy) {
   return out;
 }
 
-std::string jkr_instructions(const ExportScene& scene) {
+/// `more`: what the model needs beside the numbers of grains. `energy`: surface energy of two grains.
+std::string edem_instructions(const ExportScene& scene, const std::string& model, const std::string& more,
+                              double energy, const std::string& rest = "") {
   const ContactModel& contact = scene.contact();
-  return filled_in("exports/texts/edem_jkr.txt", {{"laws", laws_in_words(scene)},
-                                                  {"grains", grains_in_edem(contact)},
-                                                  {"energy", format("%.6g", contact.surface_energy_j_m2)},
-                                                  {"rolling", rolling_in_edem(contact)},
-                                                  {"walls", walls_in_edem(scene, contact.surface_energy_j_m2)}});
+  return filled_in(
+      "exports/texts/edem.txt",
+      {{"laws", laws_in_words(scene)},
+       {"model", model},
+       {"grains",
+        format("shear modulus %.6g MPa, Poisson's ratio %.6g, restitution %.6g,\n   static friction %.6g",
+               1e-6 * shear_modulus_pa(contact), contact.poissons_ratio, contact.restitution, contact.friction)},
+       {"more", more},
+       {"rolling", rolling_in_edem(contact)},
+       {"walls", walls_in_edem(scene, energy)},
+       {"rest", rest}});
 }
 
 /// EEPA parameters of two grains, or of a wall with a share of their attraction. A pull-off is added to the force.
@@ -55,24 +58,18 @@ std::string eepa_numbers(const ContactModel& contact, double energy, double pull
       share * pull_off, share * energy, contact.plasticity_ratio);
 }
 
-std::string eepa_instructions(const ExportScene& scene) {
+Export eepa_notes(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
+  const double overlap = matched_overlap_ratio(scene) * 0.5 * scene.radius_m();
   const double energy = eepa_surface_energy(scene), pull_off = cohesion_n(contact, scene.mean_pair());
   std::string wall_numbers;
   for (const auto& [name, wall] : scene.walls())
     wall_numbers += "   " + name + ": " + eepa_numbers(contact, energy, pull_off, wall.cohesion_factor) + ".\n";
-  return filled_in("exports/texts/edem_eepa.txt", {{"laws", laws_in_words(scene)},
-                                                   {"grains", grains_in_edem(contact)},
-                                                   {"numbers", eepa_numbers(contact, energy, pull_off, 1)},
-                                                   {"rolling", rolling_in_edem(contact)},
-                                                   {"walls", walls_in_edem(scene, energy)},
-                                                   {"wall_numbers", wall_numbers}});
-}
-
-Export eepa_notes(const ExportScene& scene) {
-  const double radius = scene.radius_m(), overlap = matched_overlap_ratio(scene) * 0.5 * radius;
+  const std::string instructions = edem_instructions(
+      scene, "Edinburgh Elasto-Plastic Adhesion (EEPA)", ";\n   " + eepa_numbers(contact, energy, pull_off, 1) + ".",
+      energy, filled_in("exports/texts/edem_eepa.txt", {{"wall_numbers", wall_numbers}}));
   return {
-      law_files(scene, {{"edem.txt", eepa_instructions(scene)}}),
+      law_files(scene, {{"edem.txt", instructions}}),
       {"Exponents, modulus, plasticity ratio and constant pull-off force are the card's.",
        format(
            "The adhesion ratio has no counterpart in the dialogue. EDEM's EEPA takes the pull-off of a contact from a "
@@ -96,11 +93,8 @@ std::string bridge_instructions(const ExportScene& scene) {
                            {{"half_gap", format("%.6g", 500 * bridge_gaps(contact, scene.mean_pair()).rupture_m)},
                             {"energy", format("%.6g", energy)},
                             {"touch", format("%.6g", touch)}});
-  return filled_in("exports/texts/edem_bridge.txt", {{"laws", laws_in_words(scene)},
-                                                     {"grains", grains_in_edem(contact)},
-                                                     {"rolling", rolling_in_edem(contact)},
-                                                     {"walls", walls_in_edem(scene, energy)},
-                                                     {"attraction", attraction}});
+  return edem_instructions(scene, "Hertz-Mindlin (no slip)",
+                           ".\n   EDEM's damping is the same function of the restitution.", energy, attraction);
 }
 
 }  // namespace
@@ -112,11 +106,17 @@ Result<Export> export_edem_notes(const ExportScene& scene) {
   if (sticks) known.attraction = {BridgeShape::none};  // a plug-in replaces EDEM's JKR
   if (Faults faults = unknown_laws(contact, known); !faults.empty()) return faults;
   if (contact.normal == NormalLaw::epa) return eepa_notes(scene);
-  if (sticks)
-    return Export{law_files(scene, {{"edem.txt", jkr_instructions(scene)}}),
+  if (sticks) {
+    const double energy = contact.surface_energy_j_m2;
+    const std::string more =
+        format(", surface energy %.6g J/m2.\n   EDEM's JKR is this law; its grains separate at a distance that is ",
+               energy) +
+        "a third of a percent smaller.";
+    return Export{law_files(scene, {{"edem.txt", edem_instructions(scene, "Hertz-Mindlin with JKR", more, energy)}}),
                   {"EDEM's JKR lets go of grains at 0.917 of the contact radius at which pastefit's does, a third of a "
                    "percent sooner in distance.",
                    "Not run in EDEM."}};
+  }
   Export out{
       law_files(scene, {{"edem.txt", bridge_instructions(scene)}}),
       {"EDEM has no bridge across a gap without a plug-in; its JKR attracts only after contact.", "Not run in EDEM."}};
