@@ -17,6 +17,8 @@ namespace pastefit {
 
 namespace {
 
+/// Of the overlap in the law; S_n = dF/dd of loading over F/d. The card's dashpots and tangential and rolling springs
+/// are proportional to S_n.
 double exponent(NormalLaw normal) {
   return normal == NormalLaw::luding ? 1 : 1.5;
 }
@@ -78,27 +80,11 @@ std::string lammps_granular_words(const ExportScene& scene) {
 
 namespace {
 
-/// Note that a constant pull-off is exact for two mean grains only; empty without pull-off, or for equal grains.
-std::string note_of_pull_off(const ExportScene& scene) {
-  const double pull_off = cohesion_n(scene.contact(), scene.mean_pair());
-  if (pull_off == 0 || scene.grains().distribution == SizeDistribution::mono) return {};
-  return format(
-      "The constant pull-off, %.4g N, is that of two mean grains; for other sizes it grows with the square of "
-      "the size on the card, and not in LIGGGHTS.",
-      pull_off);
-}
-
 constexpr double kStepsPerCollision = 25;  // with the stiffer spring
 constexpr double kLowestRestitution = 0.0501;
 
 bool is_linear(const ContactModel& contact) {
   return contact.normal == NormalLaw::luding;
-}
-
-/// S_n = dF/dd of the card's loading at the matched overlap, over the deck's spring. The card's dashpots and tangential
-/// and rolling springs are proportional to S_n.
-double tangent_share(const ContactModel& contact) {
-  return is_linear(contact) ? 1 : 1.5;
 }
 
 /// LIGGGHTS' tangential and rolling springs vary with the root of the overlap, like those of `epa`. Those of `luding`
@@ -122,7 +108,7 @@ Edinburgh::Edinburgh(const ExportScene& scene) {
   overlap_ratio = matched_overlap_ratio(scene);
   modulus_share = 2.0 / 3 * (is_linear(contact) ? 1 : std::sqrt(overlap_ratio));
   stiffening = pair.stiffening;
-  damping_share_ = std::sqrt(5.0 / 6 * tangent_share(contact));
+  damping_share_ = std::sqrt(5.0 / 6 * exponent(contact.normal));
   const double modulus = 0.75 * pair.hertz * modulus_share;  // E'*
   const auto mass = [&](double radius) {
     return 2.0 / 3 * std::numbers::pi * std::pow(radius, 3) * scene.grain_density_kg_m3;  // m* of equal grains
@@ -157,32 +143,26 @@ std::string edinburgh_memory(const ExportScene& scene, bool elastic) {
          "\nfix adhesion all property/global coefficientAdhesionStiffness " + of_pairs(scene, adhesion) + "\n";
 }
 
-std::string edinburgh_properties(const ExportScene& scene, const Edinburgh& edinburgh) {
+void add_edinburgh_properties(const ExportScene& scene, const Edinburgh& edinburgh, GlobalProperties& properties) {
   const ContactModel& contact = scene.contact();
   // S_n of the card over 2 E' sqrt(R* d) of the deck.
   const double overlap_ratio = edinburgh.overlap_ratio * (is_linear(contact) ? kSpringOverlapShare : 1);
-  const double spring = tangent_share(contact) / std::sqrt(overlap_ratio);
-  std::string out;
-  int number = 7;
-  const auto property = [&](const std::string& name, const std::string& value) {
-    out += format("fix p%d all property/global ", number++) + name + " " + value + "\n";
-  };
-  property("overlapExponent", "scalar 1");
-  property("adhesionExponent", "scalar 1");
-  out += edinburgh_memory(scene, false);
-  property("pullOffForce", of_pairs(scene, [](const PairConstants& k) { return 0 - k.cohesion; }));
-  property("surfaceEnergy", of_pairs(scene, [](const PairConstants&) { return 0.0; }));
-  property("coeffMu", of_pairs(scene, [](const PairConstants&) { return 1.0; }));
-  property("coeffFrictionStiffness",
-           of_pairs(scene, [&](const PairConstants& k) { return k.tangential_ratio * spring; }));
+  const double spring = exponent(contact.normal) / std::sqrt(overlap_ratio);
+  properties.add("overlapExponent", "scalar 1");
+  properties.add("adhesionExponent", "scalar 1");
+  properties.text += edinburgh_memory(scene, false);
+  properties.add("pullOffForce", of_pairs(scene, [](const PairConstants& k) { return 0 - k.cohesion; }));
+  properties.add("surfaceEnergy", of_pairs(scene, [](const PairConstants&) { return 0.0; }));
+  properties.add("coeffMu", of_pairs(scene, [](const PairConstants&) { return 1.0; }));
+  properties.add("coeffFrictionStiffness",
+                 of_pairs(scene, [&](const PairConstants& k) { return k.tangential_ratio * spring; }));
   // Debian's build requires the first name, the source the second.
   for (const char* name : {"FluidViscosity", "FrictionViscosity"})
-    property(name, of_pairs(scene, [](const PairConstants& k) { return std::sqrt(k.tangential_ratio); }));
-  property("coeffRollingStiffness", of_pairs(scene, [&](const PairConstants& k) {
-             const double lever = rolling_spring_lever(contact.rolling, k.rolling_friction);
-             return 2.25 * lever * lever * spring;
-           }));
-  return out;
+    properties.add(name, of_pairs(scene, [](const PairConstants& k) { return std::sqrt(k.tangential_ratio); }));
+  properties.add("coeffRollingStiffness", of_pairs(scene, [&](const PairConstants& k) {
+                   const double lever = rolling_spring_lever(contact.rolling, k.rolling_friction);
+                   return 2.25 * lever * lever * spring;
+                 }));
 }
 
 std::vector<std::string> edinburgh_losses(const ExportScene& scene, const Edinburgh& edinburgh) {
@@ -207,23 +187,23 @@ std::vector<std::string> edinburgh_losses(const ExportScene& scene, const Edinbu
     notes.push_back(format(
         "LIGGGHTS's tangential and rolling springs grow with the root of the overlap; they are the card's at %.3g mm.",
         1e3 * kSpringOverlapShare * overlap));
-  switch (contact.friction_basis) {
-    case FrictionBasis::elastic:
-      notes.push_back("The friction limit counts the dashpot, as \"friction_basis\": \"total\" does.");
-      break;
-    case FrictionBasis::total:
-      break;
-    default:
-      notes.push_back(
-          "Friction is that of the net force in size: where the card's contact is pulled and slips, the deck's "
-          "holds mu times the pull.");
-  }
+  if (contact.friction_basis == FrictionBasis::elastic)
+    notes.push_back("The friction limit counts the dashpot, as \"friction_basis\": \"total\" does.");
+  if (contact.friction_basis == FrictionBasis::net)
+    notes.push_back(
+        "Friction is that of the net force in size: where the card's contact is pulled and slips, the deck's "
+        "holds mu times the pull.");
   if (contact.rolling == RollingModel::constant_torque && contact.rolling_friction > 0)
     notes.push_back(
         "In place of a torque of constant size against the spin stands a spring that slips at that moment.");
   if (edinburgh.restitution(contact.restitution) == kLowestRestitution)
     notes.push_back("The dashpot is weaker than the card's: LIGGGHTS takes no restitution below 0.05.");
-  if (const auto note = note_of_pull_off(scene); !note.empty()) notes.push_back(note);
+  const double pull_off = cohesion_n(contact, scene.mean_pair());
+  if (pull_off != 0 && scene.grains().distribution != SizeDistribution::mono)
+    notes.push_back(
+        format("The constant pull-off, %.4g N, is that of two mean grains; for other sizes it grows with the square of "
+               "the size on the card, and not in LIGGGHTS.",
+               pull_off));
   return notes;
 }
 

@@ -35,6 +35,16 @@ double eepa_surface_energy(const ExportScene& scene);
 /// The card's law as `pair granular` of current LAMMPS, for notes.
 std::string lammps_granular_words(const ExportScene& scene);
 
+/// Global properties of a LIGGGHTS deck, as the fixes p1, p2, ...
+struct GlobalProperties {
+  std::string text;
+  int next = 1;
+
+  void add(const std::string& name, const std::string& value) {
+    text += format("fix p%d all property/global ", next++) + name + " " + value + "\n";
+  }
+};
+
 /// Matrix over the grains and each wall, without wall-wall pairs.
 inline std::string pairs_of(const std::vector<double>& values) {
   std::string out = format("peratomtypepair %zu", values.size());
@@ -82,8 +92,8 @@ inline const std::string kEdinburghSettings = "fixKc on limitForce off";
 /// both.
 std::string edinburgh_memory(const ExportScene& scene, bool elastic);
 
-/// Properties of the model other than elasticity, friction, restitution and rolling friction.
-std::string edinburgh_properties(const ExportScene& scene, const Edinburgh& edinburgh);
+/// Adds properties of the model other than elasticity, friction, restitution and rolling friction.
+void add_edinburgh_properties(const ExportScene& scene, const Edinburgh& edinburgh, GlobalProperties& properties);
 
 /// Differences from the card.
 std::vector<std::string> edinburgh_losses(const ExportScene& scene, const Edinburgh& edinburgh);

@@ -37,13 +37,6 @@ Models models_of(const ContactModel& contact, bool attracts) {
   return {base + " cohesion easo/capillary/viscous" + rolling, base + rolling, reduce};
 }
 
-/// Values of the grains, then of the walls; `of` accepts both.
-std::vector<double> by_type(const ContactModel& grains, const std::vector<ExportWall>& walls, const auto& of) {
-  std::vector<double> out{of(grains)};
-  for (const ExportWall& wall : walls) out.push_back(of(wall.contact));
-  return out;
-}
-
 std::string one_each(const std::vector<double>& values) {
   std::string out = "peratomtype";
   for (const double value : values) out += " " + exact(value);
@@ -60,44 +53,44 @@ double energy_density(const ContactModel& card, const WallContact& wall, double 
 std::string properties(const ExportScene& scene, const Written& written) {
   const ContactModel& contact = written.contact;
   const SoulieFit* const fit = written.bridge();
-  const auto& walls = scene.walls();
-  std::string out = "# types: 1 grains";
-  for (std::size_t i = 0; i < walls.size(); ++i) out += format(", %zu ", i + 2) + walls[i].name;
-  const auto property = [&](int number, const std::string& name, const std::string& value) {
-    out += format("fix p%d all property/global ", number) + name + " " + value + "\n";
+  const auto walls = scene.walls();
+  GlobalProperties out{"# types: 1 grains"};
+  for (std::size_t i = 0; i < walls.size(); ++i) out.text += format(", %zu ", i + 2) + walls[i].name;
+  out.text += "\n";
+  // Values of the grains, then of the walls.
+  const auto by_body = [&](const auto& of) {
+    std::vector<double> values{of(contact)};
+    for (const ExportWall& wall : walls) values.push_back(of(wall.contact));
+    return values;
   };
-  out += "\n";
-  const auto by_body = [&](const auto& of) { return by_type(contact, walls, of); };
-  property(1, "youngsModulus", one_each(by_body([&](auto& body) { return written.modulus(body.youngs_modulus_pa); })));
-  property(2, "poissonsRatio", one_each(by_body([](auto& body) { return body.poissons_ratio; })));
-  property(3, "coefficientRestitution",
-           pairs_of(by_body([&](auto& body) { return written.restitution(body.restitution); })));
-  property(4, "coefficientFriction", pairs_of(by_body([](auto& body) { return body.friction; })));
-  property(5, "coefficientRollingFriction", pairs_of(by_body([](auto& body) { return body.rolling_friction; })));
+  out.add("youngsModulus", one_each(by_body([&](auto& body) { return written.modulus(body.youngs_modulus_pa); })));
+  out.add("poissonsRatio", one_each(by_body([](auto& body) { return body.poissons_ratio; })));
+  out.add("coefficientRestitution",
+          pairs_of(by_body([&](auto& body) { return written.restitution(body.restitution); })));
+  out.add("coefficientFriction", pairs_of(by_body([](auto& body) { return body.friction; })));
+  out.add("coefficientRollingFriction", pairs_of(by_body([](auto& body) { return body.rolling_friction; })));
   const double rolling_damping =
       written.edinburgh && contact.friction_basis != FrictionBasis::net ? written.edinburgh->rolling_damping : 0.3;
-  property(6, "coefficientRollingViscousDamping", pairs_of(by_body([&](auto&) { return rolling_damping; })));
-  if (written.edinburgh) out += edinburgh_properties(scene, *written.edinburgh);
+  out.add("coefficientRollingViscousDamping", pairs_of(by_body([&](auto&) { return rolling_damping; })));
+  if (written.edinburgh) add_edinburgh_properties(scene, *written.edinburgh, out);
   if (contact.normal == NormalLaw::sjkr) {
     // The area of sjkr2 is twice that of the card's law.
     std::vector<double> halves{0.5 * contact.cohesion_energy_density_pa};
     for (const ExportWall& wall : walls)
       halves.push_back(0.5 * energy_density(scene.contact(), wall.contact, scene.radius_m()));
-    property(7, "cohesionEnergyDensity", pairs_of(halves));
+    out.add("cohesionEnergyDensity", pairs_of(halves));
   }
-  if (!fit) return out;
+  if (!fit) return out.text;
   const double radius = fit->bridge.radius_m;
   // LIGGGHTS assigns the share 1 - sqrt(3/4) of the liquid on one of two equal grains to each bridge.
   const double grain = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-  out += "fix p7 all property/global surfaceLiquidContentInitial scalar " +
-         exact(fit->bridge.volume_m3 / (grain * (1 - std::sqrt(0.75)))) + "\n";
-  out += "fix p8 all property/global surfaceTension scalar " + exact(fit->bridge.surface_tension_n_m) + "\n";
-  out += "fix p9 all property/global fluidViscosity scalar 0\n";
-  property(10, "contactAngle", one_each(by_body([](auto&) { return 0.0; })));
-  out += "fix p11 all property/global minSeparationDistanceRatio scalar 1.01\n";
-  out += "fix p12 all property/global maxSeparationDistanceRatio scalar " +
-         exact(1.02 + 0.5 * fit->bridge.rupture_gap_m() / radius) + "\n";
-  return out;
+  out.add("surfaceLiquidContentInitial", "scalar " + exact(fit->bridge.volume_m3 / (grain * (1 - std::sqrt(0.75)))));
+  out.add("surfaceTension", "scalar " + exact(fit->bridge.surface_tension_n_m));
+  out.add("fluidViscosity", "scalar 0");
+  out.add("contactAngle", one_each(by_body([](auto&) { return 0.0; })));
+  out.add("minSeparationDistanceRatio", "scalar 1.01");
+  out.add("maxSeparationDistanceRatio", "scalar " + exact(1.02 + 0.5 * fit->bridge.rupture_gap_m() / radius));
+  return out.text;
 }
 
 /// material.inc: properties, pair style and wall model, for a script with types for the grains and each wall.
