@@ -16,8 +16,6 @@ namespace pastefit {
 
 namespace {
 
-const char* const kNoDrop = "The deck simulates step 1 only, without the drop of the plate (step 2).";
-
 Models models_of(const ContactModel& contact, bool attracts) {
   if (yields(contact.normal)) {
     const std::string both = edinburgh_models(contact);
@@ -120,11 +118,7 @@ std::string liggghts_material(const ExportScene& scene, const Written& written, 
 std::vector<std::string> liggghts_losses(const ExportScene& scene, const Written& deck_law) {
   const ContactModel &contact = scene.contact(), &written = deck_law.contact;
   const SoulieFit* const fit = deck_law.bridge();
-  if (deck_law.edinburgh) {
-    std::vector<std::string> notes = edinburgh_losses(scene, *deck_law.edinburgh);
-    if (scene.slump() && scene.slump()->drop && !scene.application) notes.push_back(kNoDrop);
-    return notes;
-  }
+  if (deck_law.edinburgh) return edinburgh_losses(scene, *deck_law.edinburgh);
   const GrainPair pair = scene.mean_pair();
   const Sticking deck = sticking_of(written, 0.5 * scene.radius_m());
   // With a reduced limit, LIGGGHTS subtracts the cohesion from the friction force: none for grains held by adhesion
@@ -161,7 +155,6 @@ std::vector<std::string> liggghts_losses(const ExportScene& scene, const Written
     notes.push_back(
         "The rolling spring is two thirds of the card's (secant for tangent stiffness); the largest moment "
         "is the same.");
-  if (scene.slump() && scene.slump()->drop && !scene.application) notes.push_back(kNoDrop);
   return notes;
 }
 
@@ -232,6 +225,8 @@ Result<Export> export_liggghts(const ExportScene& scene) {
   const Models models = models_of(written.contact, written.bridge());
   Export out;
   out.notes = liggghts_losses(scene, written);
+  if (scene.slump() && scene.slump()->drop && !scene.application)
+    out.notes.push_back("The deck simulates step 1 only, without the drop of the plate (step 2).");
   if (scene.application)
     out.files = liggghts_application(scene, written, models, out.notes);
   else if (scene.slump())

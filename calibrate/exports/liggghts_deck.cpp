@@ -44,19 +44,12 @@ std::vector<Leg> liggghts_legs(const ExportScene& scene, const Written& written)
 }  // namespace
 
 std::string liggghts_begin(const ExportScene& scene, const std::string& what, const std::vector<std::string>& notes) {
-  std::string out = deck_comment(scene.title) + "# " + what + "; written by " + program_identity() + "\n";
-  out += "# For LIGGGHTS-PUBLIC 3.8.0. Numbers are SI; \"units lj\" means \"as they are\" and, unlike \"units si\",\n";
-  out += "# takes grains softer than 5 MPa.\n";
-  for (const auto& note : notes) out += deck_comment("- " + note);
-  return out + R"(
-units        lj
-atom_style   granular
-)" + atom_modify(scene.contact()) +
-         R"(
-boundary     f f f
-newton       off
-communicate  single vel yes
-)";
+  const auto comment = [](const std::string& note) { return deck_comment("- " + note); };
+  return filled_in("exports/texts/liggghts_header.in", {{"title", deck_comment(scene.title)},
+                                                        {"what", what},
+                                                        {"program", program_identity()},
+                                                        {"notes", listed(notes, comment, "")},
+                                                        {"atom_modify", atom_modify(scene.contact())}});
 }
 
 std::string atom_modify(const ContactModel& contact) {
