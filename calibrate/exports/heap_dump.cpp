@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -54,14 +53,12 @@ class DumpReader {
     if (!seen_ && faults_.empty())
       faults_.push_back({name_, "holds no line \"ITEM: ATOMS ...\": it is not a text dump of grains", kDumpRemedy});
     if (!faults_.empty()) return faults_;
-    std::vector<std::size_t> order(grains_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, {}, [&](std::size_t i) { return grains_[i][0]; });
+    std::ranges::sort(grains_);  // by id, their first number
     std::vector<Vec3> centres;
     std::vector<double> radii;
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      const auto& grain = grains_[order[k]];
-      if (k > 0 && grains_[order[k - 1]][0] == grain[0])
+    for (std::size_t k = 0; k < grains_.size(); ++k) {
+      const auto& grain = grains_[k];
+      if (k > 0 && grains_[k - 1][0] == grain[0])
         return Fault{name_, "holds grain " + shown(grain[0]) + " twice", "each grain once in a snapshot"};
       centres.push_back({grain[1], grain[2], grain[3]});
       radii.push_back(grain[4]);

@@ -5,7 +5,6 @@
 #include <locale>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <sstream>
 #include <string>
 
 #include "calibrate/base/embedded_text.h"
@@ -267,7 +266,7 @@ LammpsLog read_lammps_log(std::string_view text) {
       if (log.error.empty()) log.error = line;
     } else if (is_loop(line, seconds, ranks)) {
       end_of_loop();
-      loop_s = std::max(0.0, seconds);
+      loop_s = seconds;
       log.ranks = std::max(log.ranks, ranks);
     } else if (is_share(line, percent)) {
       share = percent / 100;
