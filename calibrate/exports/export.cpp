@@ -77,10 +77,6 @@ Result<Exporter> exporter_named(const std::string& name) {
                near ? "did you mean '" + *near + "'?" : "one of " + listed(known, &Exporter::name)};
 }
 
-std::string title_of(const Card& card, const CardTest& test) {
-  return title_of(card) + (test.name.empty() ? "" : ", test " + test.name);
-}
-
 Result<CardTest> test_to_export(const Card& card, const std::string& name) {
   if (!name.empty()) {
     const auto place = place_of_test(card.tests, name);
@@ -100,7 +96,7 @@ Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::op
                                  const RunOptions& fill) {
   if (Faults faults = validate_memory(test.test, 1); !faults.empty()) return faults;
   ExportScene scene;
-  scene.title = title_of(card, test);
+  scene.title = title_of(card) + (test.name.empty() ? "" : ", test " + test.name);
   scene.test = test.test;
   scene.card_density_kg_m3 = card.material.grain_density_kg_m3;
   scene.grain_density_kg_m3 = card.material.grain_density_kg_m3.value_or(specimen_of(test.test).bulk_density_kg_m3);
@@ -135,10 +131,7 @@ SizeClasses size_classes(std::span<const double> radii, int most) {
     places[bin] = static_cast<int>(out.radii_m.size());
     if (counts[bin] > 0) out.radii_m.push_back(width > 0 ? std::cbrt(cubes[bin] / counts[bin]) : smallest);
   }
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    out.class_of[i] = places[out.class_of[i]];
-    out.largest_change = std::max(out.largest_change, std::abs(out.radii_m[out.class_of[i]] / radii[i] - 1));
-  }
+  for (int& place : out.class_of) place = places[place];
   return out;
 }
 
@@ -196,11 +189,10 @@ std::string bias_text(const Export& written) {
          "\n";
 }
 
-/// Content of `kExportNotes`.
+/// Content of `kExportNotes` below the title.
 std::string export_notes(const Export& written, const Exporter& exporter, const Card& card, const CardTest& test,
                          const ExportRequest& request) {
-  std::string out = one_line(title_of(card, test)) + "\n" + std::string(exporter.meaning) + "\n\n" +
-                    lines_of(choice_text(card, test));
+  std::string out = std::string(exporter.meaning) + "\n\n" + lines_of(choice_text(card, test));
   out += written.notes.empty() ? "All of the card's contact laws are exported.\n" : "What is lost or changed:\n";
   for (const auto& note : written.notes) out += "- " + note + "\n";
   if (!written.instructions.empty()) out += "\nTo run it:\n" + written.instructions;
@@ -210,26 +202,14 @@ std::string export_notes(const Export& written, const Exporter& exporter, const 
   return out;
 }
 
-/// Fault of an unconfirmed card that the request does not accept.
-Faults unconfirmed_faults(const Card& card, bool accepted) {
-  const std::string cause = cause_unconfirmed(card);
-  if (cause.empty() || accepted) return {};
-  return {{"--unconfirmed", "the card is not confirmed: " + cause,
-           "calibrate until it is confirmed, or give --unconfirmed: every file then begins with this warning"}};
-}
-
-/// Writes the reason as the first line of every file about the material, if the card is unconfirmed.
-void mark_unconfirmed(const Card& card, Export& written) {
-  const std::string line = one_line(unconfirmed_line(card));
-  if (line.empty()) return;
-  for (ExportFile& file : written.files)
-    if (!file.name.starts_with(kStyleFolder)) file.content = marked(file, line);
-}
-
 }  // namespace
 
 Result<Export> export_card(const Card& card, const Exporter& exporter, const ExportRequest& request) {
-  Faults faults = unconfirmed_faults(card, request.unconfirmed);
+  Faults faults;
+  if (const std::string cause = cause_unconfirmed(card); !cause.empty() && !request.unconfirmed)
+    faults.push_back(
+        {"--unconfirmed", "the card is not confirmed: " + cause,
+         "calibrate until it is confirmed, or give --unconfirmed: every file then begins with this warning"});
   const auto test = test_to_export(card, request.test);
   auto scene = test.ok() ? export_scene(card, test.value(), request.packing, request.fill) : test.faults();
   if (!request.application.empty() && scene.ok())
@@ -242,8 +222,11 @@ Result<Export> export_card(const Card& card, const Exporter& exporter, const Exp
   Export written = std::move(answer).value();
   if (const SlumpTest* slump = scene.value().slump(); slump && slump->tilt && !scene.value().application)
     written.notes.push_back("The tilt of the table (tilt.slide_angle_deg) is not part of the deck.");
-  written.files.push_back({kExportNotes, export_notes(written, exporter, card, test.value(), request)});
-  mark_unconfirmed(card, written);
+  written.files.push_back({kExportNotes, one_line(scene.value().title) + "\n" +
+                                             export_notes(written, exporter, card, test.value(), request)});
+  if (const std::string line = one_line(unconfirmed_line(card)); !line.empty())
+    for (ExportFile& file : written.files)
+      if (!file.name.starts_with(kStyleFolder)) file.content = marked(file, line);
   return written;
 }
 

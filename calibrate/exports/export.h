@@ -21,7 +21,6 @@ namespace pastefit {
 struct SizeClasses {
   std::vector<double> radii_m;  ///< one per class, ascending
   std::vector<int> class_of;    ///< one per grain
-  double largest_change = 0;    ///< largest relative change of a radius
 };
 
 /// Divides the radii into at most `most` classes of equal width between the smallest and the largest one; omits empty
@@ -93,9 +92,6 @@ struct Exporter {
   Result<Export> (*write)(const ExportScene& scene);
   bool takes_applications = false;
 };
-
-/// Title of an export: that of the card, with the test's name, if any.
-std::string title_of(const Card& card, const CardTest& test);
 
 /// Selects the test to export: by name; if `name` is empty, the first slump test, which has a deck, otherwise the first
 /// test. Error: no such test.
