@@ -22,7 +22,7 @@ SLUMP_FILES = {
     "laboratory/heap_shape.cpp", "laboratory/reading_words.cpp", "laboratory/slump.cpp",
     "laboratory/slump.h", "laboratory/slump_curves.cpp", "laboratory/slump_drawing.cpp", "laboratory/test.cpp",
     "laboratory/test.h", "laboratory/yield_stress.cpp", "laboratory/yield_stress.h",
-    "browser/files.cpp", "exports/export.cpp", "exports/export.h", "exports/heap_dump.cpp", "exports/lammps.cpp",
+    "browser/calls.cpp", "exports/export.cpp", "exports/export.h", "exports/heap_dump.cpp", "exports/lammps.cpp",
     "exports/lammps_deck.cpp", "exports/lammps_deck.h", "exports/liggghts.cpp", "exports/liggghts_deck.cpp",
     "exports/liggghts_deck.h", "exports/elasto_plastic.cpp",
     "exports/parameter_table.cpp", "exports/yade.cpp",

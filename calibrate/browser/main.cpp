@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "calibrate/base/text.h"
-#include "calibrate/browser/calls.h"
 
 // The data folder as browser/archive.cmake packs it: of each file its path, its length and its bytes.
 asm(R"(
@@ -38,13 +37,6 @@ void unpack_data(const fs::path& folder) {
 }
 
 }  // namespace
-
-/// Answers a call of the page (calibrate/browser/calls.h). The text lives until the next call.
-extern "C" const char* pastefit_call(const char* name, const char* request) {
-  static std::string answer;
-  answer = pastefit::browser::answer_to_call(name, request);
-  return answer.c_str();
-}
 
 /// The module's files are in memory: the data where the program looks for them, and a folder for those of a study.
 int main() {
