@@ -15,15 +15,9 @@
 
 namespace pastefit {
 
-namespace {
-
-/// Of the overlap in the law; S_n = dF/dd of loading over F/d. The card's dashpots and tangential and rolling springs
-/// are proportional to S_n.
-double exponent(NormalLaw normal) {
+double overlap_exponent(NormalLaw normal) {
   return normal == NormalLaw::luding ? 1 : 1.5;
 }
-
-}  // namespace
 
 bool yields(NormalLaw normal) {
   return with_law(NormalLaws{}, normal, [](auto law) { return law.yields; });
@@ -57,7 +51,7 @@ double matched_overlap_ratio(const ExportScene& scene) {
 
 double eepa_surface_energy(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
-  const double effective = 0.5 * scene.radius_m(), m = exponent(contact.normal);
+  const double effective = 0.5 * scene.radius_m(), m = overlap_exponent(contact.normal);
   const double k1 = grain_pair(contact, scene.radius_m()).hertz * std::pow(effective, 2 - m);
   const double plastic_power =
       contact.plasticity_ratio * std::pow(matched_overlap_ratio(scene) * effective, m);  // p^m = l d^m
@@ -66,16 +60,6 @@ double eepa_surface_energy(const ExportScene& scene) {
   // Intersection circle of spheres with overlap p: a^2 = 2 R* p for p << R.
   const double patch = std::sqrt(2 * effective * std::pow(plastic_power, 1 / m));
   return patch > 0 ? pull_off / (1.5 * std::numbers::pi * patch) : 0;
-}
-
-std::string lammps_granular_words(const ExportScene& scene) {
-  const ContactModel& contact = scene.contact();
-  const double m = exponent(contact.normal), effective = 0.5 * scene.radius_m();
-  const double kc = contact.adhesion_ratio * grain_pair(contact, scene.radius_m()).hertz * std::pow(effective, 2 - m);
-  return format("pair_coeff * * epa_nonlinear %.6g %.6g %.6g %.6g %.6g %.6g %.6g %.6g ", contact.youngs_modulus_pa,
-                contact.restitution, contact.poissons_ratio, contact.plasticity_ratio,
-                cohesion_n(contact, scene.mean_pair()), kc, m, m) +
-         format("tangential mindlin NULL 1.0 %.6g", contact.friction);
 }
 
 namespace {
@@ -108,7 +92,7 @@ Edinburgh::Edinburgh(const ExportScene& scene) {
   overlap_ratio = matched_overlap_ratio(scene);
   modulus_share = 2.0 / 3 * (is_linear(contact) ? 1 : std::sqrt(overlap_ratio));
   stiffening = pair.stiffening;
-  damping_share_ = std::sqrt(5.0 / 6 * exponent(contact.normal));
+  damping_share_ = std::sqrt(5.0 / 6 * overlap_exponent(contact.normal));
   const double modulus = 0.75 * pair.hertz * modulus_share;  // E'*
   const auto mass = [&](double radius) {
     return 2.0 / 3 * std::numbers::pi * std::pow(radius, 3) * scene.grain_density_kg_m3;  // m* of equal grains
@@ -147,7 +131,7 @@ void add_edinburgh_properties(const ExportScene& scene, const Edinburgh& edinbur
   const ContactModel& contact = scene.contact();
   // S_n of the card over 2 E' sqrt(R* d) of the deck.
   const double overlap_ratio = edinburgh.overlap_ratio * (is_linear(contact) ? kSpringOverlapShare : 1);
-  const double spring = exponent(contact.normal) / std::sqrt(overlap_ratio);
+  const double spring = overlap_exponent(contact.normal) / std::sqrt(overlap_ratio);
   properties.add("overlapExponent", "scalar 1");
   properties.add("adhesionExponent", "scalar 1");
   properties.text += edinburgh_memory(scene, false);

@@ -32,8 +32,9 @@ double matched_overlap_ratio(const ExportScene& scene);
 /// from the plastic overlap. Two mean grains pressed to the matched overlap then have the card's pull-off.
 double eepa_surface_energy(const ExportScene& scene);
 
-/// The card's law as `pair granular` of current LAMMPS, for notes.
-std::string lammps_granular_words(const ExportScene& scene);
+/// Of the overlap in the law; S_n = dF/dd of loading over F/d. The card's dashpots and tangential and rolling springs
+/// are proportional to S_n.
+double overlap_exponent(NormalLaw normal);
 
 /// Global properties of a LIGGGHTS deck, as the fixes p1, p2, ...
 struct GlobalProperties {

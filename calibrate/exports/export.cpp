@@ -83,9 +83,8 @@ Result<CardTest> test_to_export(const Card& card, const std::string& name) {
     if (!place.ok()) return place.faults();
     return card.tests[place.value()];
   }
-  const auto slump = std::ranges::find_if(
-      card.tests, [](const CardTest& test) { return std::holds_alternative<SlumpTest>(test.test); });
-  return slump != card.tests.end() ? *slump : card.tests.front();
+  const auto found = std::ranges::find_if(card.tests, has_deck, &CardTest::test);
+  return found != card.tests.end() ? *found : card.tests.front();
 }
 
 bool has_deck(const Test& test) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,6 +13,7 @@
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/exports/nearest_law.h"
+#include "core/laws/constants.h"
 
 namespace pastefit {
 
@@ -29,15 +31,18 @@ const std::string kBuild =
 
 /// LAMMPS of 2025 has this law, Debian's version does not; untested.
 std::string note_of_granular(const ExportScene& scene) {
+  const ContactModel& contact = scene.contact();
+  const double m = overlap_exponent(contact.normal), effective = 0.5 * scene.radius_m();
+  const double kc = contact.adhesion_ratio * grain_pair(contact, scene.radius_m()).hertz * std::pow(effective, 2 - m);
   return "LAMMPS of 2025 and later has this law of its own, in pair_style granular. By its manual (we have not run "
          "it):\n    " +
-         lammps_granular_words(scene) +
+         format("pair_coeff * * epa_nonlinear %.6g %.6g %.6g %.6g %.6g %.6g %.6g %.6g tangential mindlin NULL 1.0 %.6g",
+                contact.youngs_modulus_pa, contact.restitution, contact.poissons_ratio, contact.plasticity_ratio,
+                cohesion_n(contact, scene.mean_pair()), kc, m, m, contact.friction) +
          "\n  in the order E, restitution, nu, plasticity ratio, f0, kc, exponents; choose rolling and damping beside "
-         "it. kc "
-         "is that of two mean grains, in N/m^n: compare other sizes and walls (kc times the cohesion factor) with "
-         "in.two_grains first. Its friction adds kc d^n to the force on the adhesion branch only, the card's "
-         "everywhere, and "
-         "its tangential spring feels the contact radius of the plastic overlap.";
+         "it. kc is that of two mean grains, in N/m^n: compare other sizes and walls (kc times the cohesion factor) "
+         "with in.two_grains first. Its friction adds kc d^n to the force on the adhesion branch only, the card's "
+         "everywhere, and its tangential spring feels the contact radius of the plastic overlap.";
 }
 
 /// Laws of the engine and their names; calibrate/CMakeLists.txt installs them beside the style.
