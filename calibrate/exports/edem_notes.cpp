@@ -68,18 +68,16 @@ Export eepa_notes(const ExportScene& scene) {
   const std::string instructions = edem_instructions(
       scene, "Edinburgh Elasto-Plastic Adhesion (EEPA)", ";\n   " + eepa_numbers(contact, energy, pull_off, 1) + ".",
       energy, filled_in("exports/texts/edem_eepa.txt", {{"wall_numbers", wall_numbers}}));
-  return {
-      law_files(scene, {{"edem.txt", instructions}}),
-      {"Exponents, modulus, plasticity ratio and constant pull-off force are the card's.",
-       format(
-           "The adhesion ratio has no counterpart in the dialogue. EDEM's EEPA takes the pull-off of a contact from a "
-           "surface energy, 1.5 pi gamma a with a the radius of the patch that was flattened, and lays the adhesion "
-           "branch through it; the card's pull-off is a share of the load that pressed the contact. The energy given "
-           "is such that both are the same for two mean grains once pressed %.3g mm into each other. A contact that "
-           "was pressed half as deep holds twice the card's pull-off in EDEM, but at most half of k2 p^m; a deeper "
-           "one less.",
-           1e3 * overlap),
-       "Not run in EDEM. PFC's eepa and LIGGGHTS's edinburgh without fixKc have the same pull-off."}};
+  return {law_files(scene, {{"edem.txt", instructions}}),
+          {"Exponents, modulus, plasticity ratio and constant pull-off force are the card's.",
+           format("The adhesion ratio has no counterpart in the dialogue. EDEM's EEPA takes the pull-off of a contact "
+                  "from a surface energy, 1.5 pi gamma a with a the radius of the patch that was flattened, and lays "
+                  "the adhesion branch through it; the card's pull-off is a share of the load that pressed the "
+                  "contact. The energy given is such that both are the same for two mean grains once pressed %.3g mm "
+                  "into each other. A contact that was pressed half as deep holds twice the card's pull-off in EDEM, "
+                  "but at most half of k2 p^m; a deeper one less.",
+                  1e3 * overlap),
+           "Not run in EDEM. PFC's eepa and LIGGGHTS's edinburgh without fixKc have the same pull-off."}};
 }
 
 std::string bridge_instructions(const ExportScene& scene) {

@@ -154,16 +154,14 @@ std::vector<std::string> edinburgh_losses(const ExportScene& scene, const Edinbu
   const double overlap = edinburgh.overlap_ratio * 0.5 * scene.radius_m();
   std::vector<std::string> notes;
   if (!is_linear(contact))
-    notes.push_back(format(
-        "Linear springs stand in for those of exponent 3/2: LIGGGHTS's own (edinburgh with the exponent 1.5) never "
-        "lets a "
-        "contact leave the adhesion branch, and grains fall into each other. The forces are the same at an overlap of "
-        "%.3g mm of two mean grains; at half of it the deck's is %.3g times the card's. Of every load the same share "
-        "is "
-        "held as pull-off, %.3g.",
-        1e3 * overlap, std::sqrt(2),
-        contact.adhesion_ratio * contact.plasticity_ratio /
-            (1 + contact.adhesion_ratio * (1 - contact.plasticity_ratio))));
+    notes.push_back(
+        format("Linear springs stand in for those of exponent 3/2: LIGGGHTS's own (edinburgh with the exponent 1.5) "
+               "never lets a contact leave the adhesion branch, and grains fall into each other. The forces are the "
+               "same at an overlap of %.3g mm of two mean grains; at half of it the deck's is %.3g times the card's. "
+               "Of every load the same share is held as pull-off, %.3g.",
+               1e3 * overlap, std::sqrt(2),
+               contact.adhesion_ratio * contact.plasticity_ratio /
+                   (1 + contact.adhesion_ratio * (1 - contact.plasticity_ratio))));
   notes.push_back(
       "Run it on one process: where a grain moves to another one, LIGGGHTS forgets how deep its contacts were "
       "pressed.");
@@ -175,8 +173,8 @@ std::vector<std::string> edinburgh_losses(const ExportScene& scene, const Edinbu
     notes.push_back("The friction limit counts the dashpot, as \"friction_basis\": \"total\" does.");
   if (contact.friction_basis == FrictionBasis::net)
     notes.push_back(
-        "Friction is that of the net force in size: where the card's contact is pulled and slips, the deck's "
-        "holds mu times the pull.");
+        "Friction is that of the net force in size: where the card's contact is pulled and slips, the deck's holds mu "
+        "times the pull.");
   if (contact.rolling == RollingModel::constant_torque && contact.rolling_friction > 0)
     notes.push_back(
         "In place of a torque of constant size against the spin stands a spring that slips at that moment.");

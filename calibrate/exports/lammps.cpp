@@ -97,9 +97,8 @@ Result<Export> export_lammps(const ExportScene& scene) {
   if (!style.ok()) return style.faults();
   Export out;
   out.notes.push_back(
-      "The laws are pastefit's own, memory and walls included. LAMMPS integrates them with steps of a tenth of "
-      "the Rayleigh time, without pastefit's protection of grains that have many damped contacts: do not lengthen "
-      "them.");
+      "The laws are pastefit's own, memory and walls included. LAMMPS integrates them with steps of a tenth of the "
+      "Rayleigh time, without pastefit's protection of grains that have many damped contacts: do not lengthen them.");
   if (yields(scene.contact().normal)) out.notes.push_back(note_of_granular(scene));
   if (const SlumpTest* test = scene.slump(); test && test->drop) {
     if (test->drop->motion == TableMotion::vertical)

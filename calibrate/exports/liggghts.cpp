@@ -127,13 +127,12 @@ std::vector<std::string> liggghts_losses(const ExportScene& scene, const Written
       scene, written, "LIGGGHTS", contact.friction_basis == FrictionBasis::elastic ? deck.load_n : 0);
   if (fit) {
     notes.push_back(
-        format("LIGGGHTS has no such bridge. Its capillary bridge (easo, Soulie et al. 2006) was fitted "
-               "to the card's curve: it differs by up to %.1f %% of the peak force, %.1f %% in root mean "
-               "square, %+.1f %% in work.",
+        format("LIGGGHTS has no such bridge. Its capillary bridge (easo, Soulie et al. 2006) was fitted to the card's "
+               "curve: it differs by up to %.1f %% of the peak force, %.1f %% in root mean square, %+.1f %% in work.",
                100 * fit->largest, 100 * fit->root_mean_square, 100 * fit->work));
     notes.push_back(
-        format("Liquid volume %.4g m^3 a bridge and surface tension %.4g N/m are numbers of the fit, not of a "
-               "liquid. The contact angle is 0: at others LIGGGHTS 3.8.0 is wrong, by 27 %% at 30 degrees.",
+        format("Liquid volume %.4g m^3 a bridge and surface tension %.4g N/m are numbers of the fit, not of a liquid. "
+               "The contact angle is 0: at others LIGGGHTS 3.8.0 is wrong, by 27 %% at 30 degrees.",
                fit->bridge.volume_m3, fit->bridge.surface_tension_n_m));
     const auto gaps = bridge_gaps(contact, pair);
     if (gaps.formation_m > 0)
@@ -144,8 +143,7 @@ std::vector<std::string> liggghts_losses(const ExportScene& scene, const Written
         format("Overlapping grains attract each other with %.4g N; on the card with %.4g N.", touch, cohesion));
     if (scene.sizes.radii_m.size() > 1 || (!scene.slump() && scene.grains().distribution != SizeDistribution::mono))
       notes.push_back(
-          "Between grains of other than the mean size the bridge scales as Soulie's, not with the square of "
-          "the size.");
+          "Between grains of other than the mean size the bridge scales as Soulie's, not with the square of the size.");
   }
   for (const auto& [name, wall] : scene.walls())
     if (wall.cohesion_factor > 0 && written.normal != NormalLaw::sjkr)
@@ -153,8 +151,8 @@ std::vector<std::string> liggghts_losses(const ExportScene& scene, const Written
                              wall.cohesion_factor));
   if (contact.rolling == RollingModel::spring_dashpot && contact.rolling_friction > 0)
     notes.push_back(
-        "The rolling spring is two thirds of the card's (secant for tangent stiffness); the largest moment "
-        "is the same.");
+        "The rolling spring is two thirds of the card's (secant for tangent stiffness); the largest moment is the "
+        "same.");
   return notes;
 }
 

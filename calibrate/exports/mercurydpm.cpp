@@ -31,8 +31,7 @@ Export plastic_export(const ExportScene& scene) {
   return {
       law_files(scene, {{"mercurydpm.txt", text}}),
       {"MercuryDPM's stiffness of unloading grows with the deepest overlap, the card's is constant: they are the same "
-       "at "
-       "one overlap only. Its stiffness is that of all pairs, the card's grows with R*.",
+       "at one overlap only. Its stiffness is that of all pairs, the card's grows with R*.",
        "Its friction is a share of the size of the normal force, without the attraction.", "Not run in MercuryDPM."}};
 }
 

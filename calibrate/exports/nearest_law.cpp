@@ -111,15 +111,14 @@ std::vector<std::string> differences_of_sticking(const ExportScene& scene, const
              by_area ? "a cohesion energy density of" : "a surface energy of",
              by_area ? written.cohesion_energy_density_pa : written.surface_energy_j_m2, by_area ? "Pa" : "J/m^2",
              deck.pull_off_n)};
-  notes.push_back(format(
-      "Two mean grains that only stick overlap by %.3g mm in the deck, %.3g of their radius; on the card by %.3g "
-      "mm. At touch they attract each other with %.3g N in the deck, %.3g N on the card.",
-      1e3 * deck.resting_overlap_m, deck.resting_overlap_m / radius, 1e3 * card.resting_overlap_m, deck.at_touch_n,
-      card.at_touch_n));
+  notes.push_back(
+      format("Two mean grains that only stick overlap by %.3g mm in the deck, %.3g of their radius; on the card by "
+             "%.3g mm. At touch they attract each other with %.3g N in the deck, %.3g N on the card.",
+             1e3 * deck.resting_overlap_m, deck.resting_overlap_m / radius, 1e3 * card.resting_overlap_m,
+             deck.at_touch_n, card.at_touch_n));
   notes.push_back(
       format("They part at a gap of %.3g mm in the deck, %.3g mm on the card; to part them costs %.3g J in the deck, "
-             "%.3g J on "
-             "the card, %.3g of it.",
+             "%.3g J on the card, %.3g of it.",
              1e3 * deck.part_gap_m, 1e3 * card.part_gap_m, deck.work_j, card.work_j, deck.work_j / card.work_j));
   if (scene.grains().distribution != SizeDistribution::mono && by_area) {
     std::string sizes;

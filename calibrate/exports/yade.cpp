@@ -104,14 +104,12 @@ Result<Export> export_yade(const ExportScene& scene) {
   if (contact.normal == card.normal && contact.friction_basis != FrictionBasis::elastic && pull > 0)
     out.notes.push_back(
         format("Yade limits friction by the elastic force, the card by a force that includes the attraction. A contact "
-               "that is pressed "
-               "only by its "
-               "own attraction (%.3g N) resists sliding with up to %.3g N in Yade and %.3g N with the card's law.",
+               "that is pressed only by its own attraction (%.3g N) resists sliding with up to %.3g N in Yade and %.3g "
+               "N with the card's law.",
                pull, contact.friction * pull, contact.friction * held_normal_force_n(contact, sticking)));
   if (contact.rolling != RollingModel::none && contact.rolling_friction > 0)
     out.notes.push_back(
-        "Rolling: the spring and the largest moment are those of two mean grains, on walls too; there is "
-        "no dashpot.");
+        "Rolling: the spring and the largest moment are those of two mean grains, on walls too; there is no dashpot.");
   const double weight = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * scene.grain_density_kg_m3 * kGravity;
   if (const auto note = note_of_constant_torque(scene, 10 * weight); !note.empty()) out.notes.push_back(note);
   out.files = {{"material.py", module_of(scene, contact)}, {"two_grains.py", two_grains_script(scene, contact)}};
