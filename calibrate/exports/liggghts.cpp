@@ -21,10 +21,9 @@ Models models_of(const ContactModel& contact, bool attracts) {
     const std::string both = edinburgh_models(contact);
     return {both, both, kEdinburghSettings, kEdinburghSettings};
   }
-  const bool constant = contact.rolling == RollingModel::constant_torque;
-  const std::string rolling = contact.rolling == RollingModel::none || contact.rolling_friction == 0 ? ""
-                              : constant ? " rolling_friction cdt"
-                                         : " rolling_friction epsd";
+  std::string rolling;
+  if (contact.rolling != RollingModel::none && contact.rolling_friction != 0)
+    rolling = contact.rolling == RollingModel::constant_torque ? " rolling_friction cdt" : " rolling_friction epsd";
   const std::string base = "model hertz tangential history";
   const std::string reduce = contact.friction_basis != FrictionBasis::elastic ? "tangential_reduce on" : "";
   if (contact.normal == NormalLaw::sjkr) {
@@ -36,9 +35,7 @@ Models models_of(const ContactModel& contact, bool attracts) {
 }
 
 std::string one_each(const std::vector<double>& values) {
-  std::string out = "peratomtype";
-  for (const double value : values) out += " " + exact(value);
-  return out;
+  return "peratomtype " + listed(values, exact, " ");
 }
 
 /// Energy density of sjkr2 with the card's adhesion to the wall.
