@@ -47,19 +47,14 @@ std::string readings_to_be_met(const Study& study) {
 /// number of grains goes with 1/R^3 and that of steps with 1/R. Nothing if that simulation fails.
 std::optional<double> seconds_of_simulation(const Test& test) {
   constexpr double few = 300;  // grains
-  constexpr double largest_enlargement = 30, patience_s = 2;
+  constexpr double largest_factor = 30, patience_s = 2;
   Test coarse = test;
-  GrainSizes& grains = specimen_of(coarse).grains;
-  const double wanted = std::cbrt(grains_needed(test) / few);
   // As coarse as the apparatus permits.
-  double enlarged = std::clamp(wanted, 1.0, largest_enlargement);
-  const GrainSizes own = grains;
-  for (;; enlarged = std::max(1.0, 0.9 * enlarged)) {
-    for (const auto size :
-         {&GrainSizes::radius_m, &GrainSizes::smallest_m, &GrainSizes::largest_m, &GrainSizes::standard_deviation_m})
-      grains.*size = enlarged * own.*size;
+  double factor = std::clamp(std::cbrt(grains_needed(test) / few), 1.0, largest_factor);
+  for (;; factor = std::max(1.0, 0.9 * factor)) {
+    specimen_of(coarse).grains = enlarged(specimen_of(test).grains, factor);
     if (validate(coarse).empty()) break;
-    if (enlarged == 1) return std::nullopt;
+    if (factor == 1) return std::nullopt;
   }
   RunOptions options;
   options.steps.energy_balance = false;
@@ -67,7 +62,7 @@ std::optional<double> seconds_of_simulation(const Test& test) {
   const auto taken_s = [&] { return thread_seconds() - start_s; };
   options.pulse = [&](const Snapshot&) { return taken_s() < patience_s; };
   if (simulate(coarse, options).failure) return std::nullopt;
-  return taken_s() * std::pow(enlarged, 4);
+  return taken_s() * std::pow(factor, 4);
 }
 
 std::string time_expected(const Study& study, int threads) {
@@ -81,14 +76,12 @@ std::string time_expected(const Study& study, int threads) {
     ++tests;
   }
   one_s /= tests;
-  const int fewest = (search.screening + search.packings + search.confirmation_packings) * tests;
-  const int cores = threads > 0 ? threads : processors();
-  const auto at_once = std::min(cores, search.budget_simulations);
-  const auto wall = [&](int simulations) { return one_s * simulations / at_once; };
-  return "  time                     " +
-         range_of_time(wall(std::min(fewest, search.budget_simulations)), wall(search.budget_simulations)) +
-         format(": %d to %d simulations of about %s s, %d at once\n", std::min(fewest, search.budget_simulations),
-                search.budget_simulations, plain(one_s, 2).c_str(), at_once);
+  const int most = search.budget_simulations;
+  const int fewest = std::min((search.screening + search.packings + search.confirmation_packings) * tests, most);
+  const int at_once = std::min(threads > 0 ? threads : processors(), most);
+  const auto wall_s = [&](int simulations) { return one_s * simulations / at_once; };
+  return "  time                     " + range_of_time(wall_s(fewest), wall_s(most)) +
+         format(": %d to %d simulations of about %s s, %d at once\n", fewest, most, plain(one_s, 2).c_str(), at_once);
 }
 
 /// Free parameters that no fitted reading identifies.
