@@ -54,9 +54,8 @@ std::optional<Card> card_of_batch(const BatchStudy& one) {
   if (!fs::is_regular_file(file, error)) return std::nullopt;
   auto card = read_card(file);
   if (!card.ok() || card.value().provenance.study_hash != one.study.hash) return std::nullopt;
-  if (card.value().tests.size() != one.study.tests.size()) return std::nullopt;
-  for (std::size_t i = 0; i < one.study.tests.size(); ++i)
-    if (card.value().tests[i].lab_hash != one.study.tests[i].lab.hash) return std::nullopt;
+  const auto hash_of = [](const StudyTest& test) { return test.lab.hash; };
+  if (!std::ranges::equal(card.value().tests, one.study.tests, {}, &CardTest::lab_hash, hash_of)) return std::nullopt;
   return std::move(card).value();
 }
 

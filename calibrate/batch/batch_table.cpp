@@ -1,5 +1,3 @@
-#include "calibrate/batch/batch_table.h"
-
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
@@ -8,6 +6,7 @@
 #include <system_error>
 
 #include "calibrate/base/text.h"
+#include "calibrate/batch/batch.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/report/page.h"
 #include "calibrate/report/summary.h"

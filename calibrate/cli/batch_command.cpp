@@ -11,7 +11,6 @@
 #include "calibrate/base/machine.h"
 #include "calibrate/base/text.h"
 #include "calibrate/batch/batch.h"
-#include "calibrate/batch/batch_table.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/cli/child_calibration.h"
 #include "calibrate/cli/commands.h"

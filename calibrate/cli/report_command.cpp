@@ -2,7 +2,7 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
-#include "calibrate/batch/batch_table.h"
+#include "calibrate/batch/batch.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"
