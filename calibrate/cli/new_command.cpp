@@ -31,7 +31,6 @@ struct NewOptions {
   std::string table;  ///< file with several sheets
   Sheet sheet;
   std::vector<std::string> readings, deviations, fixed, priors;  ///< "NAME=VALUES"
-  std::vector<std::pair<std::string, std::string>> by_name;      ///< readings given by options of their own
   bool force = false;
 };
 
@@ -148,8 +147,6 @@ void part(const std::string& option, const std::vector<std::string>& texts, Shee
 void read_options(NewOptions& options) {
   Faults faults;
   Sheet& sheet = options.sheet;
-  for (auto& [name, text] : options.by_name)
-    if (!text.empty()) sheet.readings.emplace_back(name, text);
   part("--reading", options.readings, sheet.readings, faults);
   part("--sd", options.deviations, sheet.deviations, faults);
   part("--fix", options.fixed, sheet.fixed, faults);
@@ -318,14 +315,15 @@ Command add_new(CLI::App& verb) {
       ->type_name("N");
   verb.add_option("--density", sheet.density, "fresh density, in kg/m3 or with its unit: \"145 lb/ft3\"")
       ->type_name("DENSITY");
-  options->by_name.reserve(short_readings().size());
-  for (const ShortReading& one : short_readings()) {
-    options->by_name.emplace_back(one.name, "");
-    verb.add_option("--" + std::string(one.name), options->by_name.back().second,
-                    std::string(one.meaning) + ": repeats as \"180, 175, 190\", in " + unit_in_words(one) +
-                        " or with their unit")
+  for (const ShortReading& one : short_readings())
+    verb.add_option_function<std::string>(
+            "--" + std::string(one.name),
+            [&sheet, &one](const std::string& text) {
+              if (!text.empty()) sheet.readings.emplace_back(one.name, text);
+            },
+            std::string(one.meaning) + ": repeats as \"180, 175, 190\", in " + unit_in_words(one) +
+                " or with their unit")
         ->type_name("VALUES");
-  }
   verb.add_option("--reading", options->readings, "any other reading of a laboratory file; repeatable")
       ->type_name("NAME=VALUES")
       ->take_all();

@@ -27,7 +27,6 @@ namespace fs = std::filesystem;
 struct PlanArguments {
   std::string folder = "plan";
   Sheet sheet;
-  std::vector<std::pair<std::string, std::string>> readings;  ///< by name, as given
   int budget = 60, packings = 4, threads = 0;
   bool force = false, json = false;
 };
@@ -35,8 +34,6 @@ struct PlanArguments {
 /// The expected readings as a sheet; without a density, that of the preset.
 Sheet expected_sheet(const PlanArguments& options) {
   Sheet sheet = options.sheet;
-  for (const auto& [name, text] : options.readings)
-    if (!text.empty()) sheet.readings.emplace_back(name, text);
   if (sheet.readings.empty())
     refuse({{"--slump", "is missing, and every other reading", "what you expect, e.g. --slump 100"}});
   const Test test = value_or_throw(apparatus_of(sheet.mould, options.folder));
@@ -123,13 +120,14 @@ Command add_plan(CLI::App& verb) {
       ->type_name("MOULD")
       ->required();
   verb.add_option("--density", sheet.density, "of the fresh material; default: the preset's")->type_name("DENSITY");
-  options->readings.reserve(short_readings().size());
-  for (const ShortReading& one : short_readings()) {
-    options->readings.emplace_back(one.name, "");
-    verb.add_option("--" + std::string(one.name), options->readings.back().second,
-                    "expected " + std::string(one.meaning))
+  for (const ShortReading& one : short_readings())
+    verb.add_option_function<std::string>(
+            "--" + std::string(one.name),
+            [&sheet, &one](const std::string& text) {
+              if (!text.empty()) sheet.readings.emplace_back(one.name, text);
+            },
+            "expected " + std::string(one.meaning))
         ->type_name("VALUES");
-  }
   verb.add_option("--grains", sheet.grains, "radius of the grains, as for pastefit new")->type_name("RADII");
   verb.add_option("--budget", options->budget, "simulations to find the materials")
       ->type_name("N")
