@@ -1,10 +1,13 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
@@ -15,15 +18,16 @@
 #include "calibrate/cli/output_file.h"
 #include "calibrate/cli/process.h"
 #include "calibrate/cli/progress.h"
-#include "calibrate/cli/single_run.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/cli/understood.h"
 #include "calibrate/evaluate/cost.h"
+#include "calibrate/report/vtk.h"
 #include "calibrate/store/checkpoint.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/store/output_folder.h"
 #include "core/step/run_checkpoint.h"
 #include "core/step/state.h"
+#include "core/world/world.h"
 
 namespace pastefit {
 
@@ -158,6 +162,59 @@ void judge_step(double given_s, double advised_s) {
        stable ? "" : ": the result may be wrong; leave --time-step out, or give at most that");
 }
 
+/// Layers of a picture, one series each: suffixes of the name of the grains' series.
+constexpr std::array kLayers{"", "-links", "-walls"};
+
+/// One series each, for a clock of its own. A run has those of the stages that it comes to.
+constexpr std::array kStages{"filling", "grains", "grains-second-drop"};
+
+/// ParaView pictures of a run: grains, links and walls. A test has one series per stage, whose clock starts at the time
+/// of its first snapshot; an impact has one stage.
+class RunPictures {
+ public:
+  /// Writes nothing yet.
+  explicit RunPictures(const std::string& folder) {
+    for (const char* name : kStages) {
+      Stage& stage = stages_.emplace_back();
+      for (const char* layer : kLayers) stage.layers.emplace_back(folder, std::string(name) + layer);
+    }
+  }
+
+  /// Index files of all series, or only of those that were written.
+  std::vector<std::filesystem::path> indices(bool written) const {
+    std::vector<std::filesystem::path> files;
+    for (const Stage& stage : stages_)
+      for (const VtkSeries& layer : stage.layers)
+        if (stage.begun || !written) files.push_back(layer.index());
+    return files;
+  }
+
+  /// Writes the pictures of a snapshot. Errors: a file cannot be written.
+  Faults add(const Snapshot& snapshot) {
+    const bool filling = snapshot.phase.starts_with("fill.");
+    Stage& stage = stages_.at(filling ? 0 : static_cast<std::size_t>(snapshot.drop) + 1);
+    // A stage may consist of several consecutive runs.
+    if (snapshot.time_s < stage.last_s) stage.earlier_s += stage.last_s;
+    stage.last_s = snapshot.time_s;
+    stage.begun = true;
+    const World& world = *snapshot.world;
+    const std::array frames{grain_frame(world), link_frame(world), wall_frame(world)};
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      if (auto faults = stage.layers[i].add(snapshot.time_s + stage.earlier_s, frames[i]); !faults.empty())
+        return faults;
+    return {};
+  }
+
+ private:
+  struct Stage {
+    std::vector<VtkSeries> layers;
+    double last_s = 0, earlier_s = 0;
+    bool begun = false;
+  };
+
+  std::vector<Stage> stages_;
+};
+
 /// One simulation with its observers and outputs.
 class SingleSimulation {
  public:
@@ -227,8 +284,8 @@ class SingleSimulation {
 
   void open_folder() {
     if (options_.out.empty()) return;
-    std::vector<std::string> results = RunPictures::index_names();
-    results.insert(results.begin(), {kResult, kCurve});
+    std::vector<std::string> results{kResult, kCurve};
+    for (const auto& file : RunPictures(options_.out).indices(false)) results.push_back(file.filename());
     folder_ = value_or_throw(OutputFolder::open(
         options_.out, results, options_.force ? EarlierResult::replace : EarlierResult::refuse, kSpace));
     if (options_.vtk_interval_s) pictures_.emplace(options_.out);
@@ -277,7 +334,7 @@ class SingleSimulation {
     note("wrote %s\n", folder_->file(kResult).c_str());
     if (outcome.curve) note("wrote %s\n", folder_->file(kCurve).c_str());
     if (pictures_)
-      for (const auto& file : pictures_->indices()) note("wrote %s\n", file.c_str());
+      for (const auto& file : pictures_->indices(true)) note("wrote %s\n", file.c_str());
   }
 
   const SimulateOptions& options_;
