@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
@@ -5,10 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "calibrate/base/text.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/card/calibration_card.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/cli/child_calibration.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
@@ -19,6 +22,7 @@
 #include "calibrate/evaluate/cost.h"
 #include "calibrate/evaluate/record.h"
 #include "calibrate/inference/description.h"
+#include "calibrate/report/comparison.h"
 #include "calibrate/report/findings.h"
 #include "calibrate/report/next_steps.h"
 #include "calibrate/report/page.h"
@@ -136,16 +140,81 @@ WorkAhead work_ahead(const Study& study) {
           search.examination_simulations * each + hold_out_simulations(study)};
 }
 
-/// Searches with following seeds, each a process of its own.
+/// One study for each seed, in folders of their own that are free or may be continued.
+std::vector<BatchStudy> studies_of(const Study& study, const CalibrateArguments& options) {
+  std::vector<BatchStudy> all;
+  for (int i = 0; i < options.seeds; ++i) {
+    BatchStudy one{"", options.study, "", study};
+    one.study.search.seed = study.search.seed + static_cast<std::uint64_t>(i);
+    one.name = "seed-" + std::to_string(one.study.search.seed);
+    one.folder = std::filesystem::path(options.out) / one.name;
+    (void)value_or_throw(open_calibration_folder(one.folder, one.study, options.resume, options.force));
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+/// True if the search has confirmed a material, or used the present budget.
+bool needs_nothing(const BatchStudy& one) {
+  if (!is_finished(one)) return false;
+  const Card card = *card_of_batch(one);
+  return cause_unconfirmed(card).empty() || card.search.budget >= one.study.search.budget_simulations;
+}
+
+struct SeedCards {
+  std::vector<CardFile> cards;
+  std::vector<std::string> without;  ///< searches without a card, with the reason
+};
+
+SeedCards cards_of(const std::vector<BatchStudy>& all) {
+  SeedCards out;
+  for (const BatchStudy& one : all)
+    if (auto card = card_of_batch(one))
+      out.cards.push_back({one.name, std::move(*card)});
+    else if (const auto failure = read_failure(one))
+      out.without.push_back(one.name + ": " + failure->reason);
+    else
+      out.without.push_back(one.name + ": not finished; the same command with --resume goes on");
+  return out;
+}
+
+void print_seeds(const SeedCards& found, bool json) {
+  if (json) {
+    auto out = comparison_json(found.cards);
+    out["without_card"] = found.without;
+    print("%s", json_text(out).c_str());
+    return;
+  }
+  if (found.cards.size() > 1) print("%s", comparison_lines(found.cards).c_str());
+  for (const std::string& one : found.without) print("%s", wrapped("No card of " + one_line(one) + "\n").c_str());
+}
+
+/// Searches with the study's seed and the following ones, each a process of its own with the folder seed-NUMBER, and
+/// prints their cards side by side. Exit status: success if every material is confirmed.
 int run_seeds(const Study& study, const CalibrateArguments& options) {
-  Seeds seeds{options.seeds, options.repeated(), options.resume, options.force, options.json};
-  const auto add = [&](const char* option, const std::string& value) {
-    seeds.options.insert(seeds.options.end(), {option, value});
-  };
+  std::vector<std::string> words = options.repeated();
+  const auto add = [&](const char* option, const std::string& value) { words.insert(words.end(), {option, value}); };
   if (options.budget > 0) add("--budget", std::to_string(options.budget));
   if (options.wall_budget_s > 0) add("--wall-budget", exact(options.wall_budget_s));
   if (options.core_budget_s > 0) add("--core-budget", exact(options.core_budget_s));
-  return calibrate_with_seeds(study, options.study, options.out, seeds, listen_for_stop());
+  const std::atomic<bool>& stop = listen_for_stop();
+  const std::vector<BatchStudy> all = studies_of(study, options);
+  Faults faults;
+  for (std::size_t i = 0; i < all.size() && !stop; ++i) {
+    const bool finished = needs_nothing(all[i]);
+    note("%zu of %zu: %s%s\n", i + 1, all.size(), all[i].name.c_str(), finished ? ": finished before" : "");
+    if (finished) continue;
+    std::vector<std::string> with_seed = words;
+    with_seed.insert(with_seed.end(), {"--seed", std::to_string(all[i].study.search.seed)});
+    append(faults, calibrate_in_child(all[i], with_seed, stop));
+  }
+  const SeedCards found = cards_of(all);
+  print_seeds(found, options.json);
+  refuse(faults, kFailed);
+  const auto confirmed =
+      std::ranges::count_if(found.cards, [](const CardFile& one) { return cause_unconfirmed(one.card).empty(); });
+  if (!options.json) print("%td of %zu searches confirmed a material.\n", confirmed, all.size());
+  return confirmed == std::ssize(all) ? kDone : kFailed;
 }
 
 int run_calibrate(const CalibrateArguments& options) {

@@ -16,16 +16,4 @@ namespace pastefit {
 Faults calibrate_in_child(const BatchStudy& one, const std::vector<std::string>& options,
                           const std::atomic<bool>& stop);
 
-/// Several searches of one study.
-struct Seeds {
-  int count = 0;
-  std::vector<std::string> options;  ///< of `pastefit calibrate` for each of them, without seed and folder
-  bool resume = false, force = false, json = false;
-};
-
-/// Calibrates a study with its seed and the following ones, each in the folder seed-NUMBER of `out`, and prints the
-/// cards side by side (`report/comparison.h`). Returns the exit status: success if every material is confirmed.
-int calibrate_with_seeds(const Study& study, const std::string& file, const std::string& out, const Seeds& seeds,
-                         const std::atomic<bool>& stop);
-
 }  // namespace pastefit
