@@ -12,7 +12,6 @@
 #include "calibrate/base/text.h"
 #include "calibrate/batch/batch.h"
 #include "calibrate/calibrate.h"
-#include "calibrate/cli/child_calibration.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"

@@ -12,7 +12,6 @@
 #include "calibrate/calibrate.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/card/standing.h"
-#include "calibrate/cli/child_calibration.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/process.h"

@@ -79,7 +79,6 @@ std::string output_of(const std::string& verb, std::vector<std::string> words, c
   words.insert(words.begin(), verb);
   if (options.threads > 0) words.insert(words.end(), {"--threads", std::to_string(options.threads)});
   if (options.force) words.push_back("--force");
-  if (is_quiet()) words.push_back("--quiet");
   ChildEnd end;
   try {
     end = run_this_program(words, stop);

@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/batch/batch.h"
+#include "core/result.h"
+
 namespace pastefit {
 
 /// Result of a child process.
@@ -15,8 +18,8 @@ struct ChildEnd {
   std::string output;  ///< standard output
 };
 
-/// Runs this program with these arguments as a child process and waits for its end. The child shares standard error, is
-/// asked to end when `stop` becomes true, and does not outlive this process. Throws std::system_error if the process
+/// Runs this program with these arguments as a child process, as quiet as this one, and waits for its end. The child
+/// shares standard error, is asked to end when `stop` becomes true, and does not outlive this process. Throws std::system_error if the process
 /// cannot be started.
 ChildEnd run_this_program(const std::vector<std::string>& arguments, const std::atomic<bool>& stop);
 
@@ -25,6 +28,13 @@ ChildEnd run_this_program(const std::vector<std::string>& arguments, const std::
 ChildEnd run_in_shell(const std::string& command, const std::filesystem::path& folder,
                       const std::filesystem::path& output, const std::atomic<bool>& stop,
                       const std::function<void()>& meanwhile = {});
+
+/// Calibrates one study with `pastefit calibrate --resume` in a child process, so that a crash does not affect others;
+/// a killed process is started again up to twice. `options`: further words of that command. A calibration without a
+/// card leaves the reason in its folder (`read_failure`). Nothing is left after a stop, which can be continued. Errors:
+/// the reason cannot be written.
+Faults calibrate_in_child(const BatchStudy& one, const std::vector<std::string>& options,
+                          const std::atomic<bool>& stop);
 
 /// Returns a flag that becomes true at the first Ctrl-C, SIGTERM or SIGHUP, so that a run ends with the best result so
 /// far. The second signal kills the program, as by default. Call this once, before starting threads.
