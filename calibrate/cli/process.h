@@ -19,8 +19,8 @@ struct ChildEnd {
 };
 
 /// Runs this program with these arguments as a child process, as quiet as this one, and waits for its end. The child
-/// shares standard error, is asked to end when `stop` becomes true, and does not outlive this process. Throws std::system_error if the process
-/// cannot be started.
+/// shares standard error, is asked to end when `stop` becomes true, and does not outlive this process. Throws
+/// std::system_error if the process cannot be started.
 ChildEnd run_this_program(const std::vector<std::string>& arguments, const std::atomic<bool>& stop);
 
 /// Runs a shell command in `folder` like `run_this_program`, without input. Both outputs go to the file `output`, and
