@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -39,7 +38,7 @@ std::string roff(std::string_view text) {
 }
 
 bool is_positional(const CLI::Option& option) {
-  return option.nonpositional() == false;
+  return !option.nonpositional();
 }
 
 /// "--out DIR", "-h,--help", "STUDY".
@@ -97,9 +96,8 @@ std::string zsh_completion(const CLI::App& program) {
   for (const CLI::App* verb : verbs_of(program))
     out += "  " + shell_word(verb->get_name() + ":" + verb->get_description()) + "\n";
   out += ")\nif (( CURRENT == 2 )); then\n  _describe verb verbs\n  return\nfi\ncase $words[2] in\n";
-  for (const CLI::App* verb : verbs_of(program)) {
+  for (const CLI::App* verb : verbs_of(program))
     out += "  " + verb->get_name() + ") compadd -- " + flags_of(*verb) + " ;;\n";
-  }
   return out + "esac\n_files\n";
 }
 
@@ -166,11 +164,9 @@ int print_help(const CLI::App& program, const std::string& name) {
     print("%s", form->make_help(&program, program.get_name(), CLI::AppFormatMode::Normal).c_str());
     return kDone;
   }
-  std::set<std::string, std::less<>> names;
-  for (const CLI::App* verb : verbs_of(program)) {
-    names.insert(verb->get_name());
-    if (verb->get_name() != name) continue;
-    print("%s", verb->help(program.get_name()).c_str());
+  const Names names = names_of(verbs_of(program), &CLI::App::get_name);
+  if (names.contains(name)) {
+    print("%s", program.get_subcommand(name)->help(program.get_name()).c_str());
     return kDone;
   }
   const auto near = nearest(name, names);

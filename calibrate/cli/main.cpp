@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -37,7 +36,7 @@ std::string kernels_note() {
 
 /// Options that the verb does not have; CLI11 would first report missing required ones.
 Faults unknown_options(const CLI::App& verb, int argc, char** argv) {
-  std::set<std::string, std::less<>> names;
+  Names names;
   for (const CLI::Option* option : verb.get_options())
     for (const std::string& name : option->get_lnames()) names.insert("--" + name);
   Faults faults;
@@ -99,8 +98,7 @@ int run(int argc, char** argv) {
       {kTrust, "verify", "compare the contact laws with closed forms, case by case", add_verify},
       {kMany, "batch", "calibrate many studies, one after the other or as an array job, and make one table of them",
        add_batch}};
-  std::set<std::string, std::less<>> names;
-  for (const auto& verb : kVerbs) names.emplace(verb.name);
+  const Names names = names_of(kVerbs, &Verb::name);
   if (argc > 1 && argv[1][0] != '-' && !names.contains(argv[1])) {
     const auto near = nearest(argv[1], names);
     refuse({{argv[1], "is not a verb of pastefit", near ? "did you mean '" + *near + "'?" : "see pastefit --help"}});
