@@ -6,6 +6,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <system_error>
 
 #include "calibrate/base/atomic_file.h"
@@ -49,7 +50,8 @@ std::optional<std::string> answer_to(const std::string& question, const std::str
   }
 }
 
-Faults faults_of_text(const Result<std::vector<double>>& read) {
+template <class T>
+Faults faults_in(const Result<T>& read) {
   return read.ok() ? Faults{} : read.faults();
 }
 
@@ -67,14 +69,13 @@ bool ask_readings(Sheet& sheet, const SlumpTest& test) {
     if ((after_drop && !once) || (after_all && !often)) continue;
     if (one.name == "shift" || one.name == "mass" || one.name == "slump2" || one.name == "slide-angle") continue;
     if (one.name == "angle" && !test.reading.flank) continue;
-    const bool height = one.name == "height" && !sheet.readings.empty();  // a slump gives the height
-    if (height) continue;
+    if (one.name == "height" && !sheet.readings.empty()) continue;  // a slump gives the height
     const auto answer = answer_to(
         std::string(one.name) + ", " + std::string(one.meaning) + " (" + unit_in_words(one) +
             "; repeats as \"180, 175, 190\"; empty: not measured)",
         "", [&](const std::string& text) {
           return text.empty() ? Faults{}
-                              : faults_of_text(written_readings("", text, one.key.ends_with("_deg") ? "deg" : "mm"));
+                              : faults_in(written_readings("", text, one.key.ends_with("_deg") ? "deg" : "mm"));
         });
     if (!answer) return false;
     if (!answer->empty()) sheet.readings.emplace_back(one.name, *answer);
@@ -91,17 +92,13 @@ bool ask_sheet(Sheet& sheet, const fs::path& folder) {
     if (answer) target = *answer;
     return answer.has_value();
   };
-  const auto mould_faults = [&](const std::string& text) {
-    const auto read = apparatus_of(text, folder);
-    return read.ok() ? Faults{} : read.faults();
-  };
   if (!ask(sheet.mould,
            "mould: abrams, abrams-en, hinged-plate, haegermann-table, astm-c1437, haegermann, mini-cone, "
            "lifted-cylinder, "
            "or base/top/height in mm",
-           "abrams", mould_faults) ||
+           "abrams", [&](const std::string& text) { return faults_in(apparatus_of(text, folder)); }) ||
       !ask(sheet.density, "density of the fresh material (kg/m3, or with its unit: 145 lb/ft3)", "",
-           [](const std::string& text) { return faults_of_text(written_readings("", text, "kg_m3")); }))
+           [](const std::string& text) { return faults_in(written_readings("", text, "kg_m3")); }))
     return false;
   const auto test = apparatus_of(sheet.mould, folder);
   if (sheet.readings.empty() && sheet.yield_stress.empty() && test.ok())
@@ -200,8 +197,7 @@ int write_one(const NewOptions& options, const Start& start) {
 
 std::string listed_briefly(const std::vector<std::string>& words) {
   constexpr std::size_t most = 20;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(most, words.size()); ++i) list += (i == 0 ? "" : ", ") + words[i];
+  const std::string list = listed(std::span(words).first(std::min(most, words.size())));
   return words.size() > most ? list + " and " + std::to_string(words.size() - most) + " more" : list;
 }
 
@@ -240,15 +236,10 @@ int new_from_table(const NewOptions& options) {
   std::vector<std::pair<std::size_t, Fault>> found;
   for (const SheetRow& row : rows) {
     Start start{rows.size() == 1 ? fs::path(options.folder) : fs::path(options.folder) / row.name, {}};
-    Faults faults = missing_options(row.sheet);
-    if (faults.empty()) {
-      auto files = starting_files(row.sheet, start.folder);
-      if (files.ok())
-        start.files = std::move(files).value();
-      else
-        faults = files.faults();
-    }
-    for (Fault& fault : faults) found.emplace_back(row.line, std::move(fault));
+    const Faults missing = missing_options(row.sheet);
+    auto files = missing.empty() ? starting_files(row.sheet, start.folder) : missing;
+    for (const Fault& fault : faults_in(files)) found.emplace_back(row.line, fault);
+    if (files.ok()) start.files = std::move(files).value();
     starts.push_back(std::move(start));
   }
   append(of_table, in_file(in_lines(found), options.table));
@@ -278,16 +269,13 @@ int make_new(NewOptions options) {
              "leave one of them out"}});
   if (options.test != "slump") return write_one(options, {options.folder, templates_of_kind(options.test)});
   Sheet& sheet = options.sheet;
-  if (!options.table.empty()) {
-    if (sheet.target.empty()) sheet.target = target_laws().front().target;
-    return new_from_table(options);
-  }
-  if (!missing_options(sheet).empty() && isatty(STDIN_FILENO) == 1) {
+  if (options.table.empty() && !missing_options(sheet).empty() && isatty(STDIN_FILENO) == 1) {
     if (!ask_sheet(sheet, options.folder)) refuse({{"standard input", "ended before every answer", "start again"}});
     print("\n");
   }
-  refuse(missing_options(sheet));
   if (sheet.target.empty()) sheet.target = target_laws().front().target;
+  if (!options.table.empty()) return new_from_table(options);
+  refuse(missing_options(sheet));
   return write_one(options, {options.folder, value_or_throw(starting_files(sheet, options.folder))});
 }
 
