@@ -132,13 +132,6 @@ Faults too_long_faults(const Study& study, const CalibrateArguments& options) {
                          options.threads, asked_for, "larger grains, a smaller budget, a --wall-budget");
 }
 
-WorkAhead work_ahead(const Study& study) {
-  const SearchOptions& search = study.search;
-  const int each = static_cast<int>(tests_of(study, false).size());
-  return {search.budget_simulations, search.screening * each, search.confirmation_packings * each,
-          search.examination_simulations * each + hold_out_simulations(study)};
-}
-
 /// One study for each seed, in folders of their own that are free or may be continued.
 std::vector<BatchStudy> studies_of(const Study& study, const CalibrateArguments& options) {
   std::vector<BatchStudy> all;
@@ -235,7 +228,7 @@ int run_calibrate(const CalibrateArguments& options) {
   refuse(strangers_in(study, store, file));
 
   print_remarks(study, store, file, options.threads);
-  ProgressLine line(work_ahead(study), error_unit_of(study));
+  ProgressLine line(study);
   LivePage page(options.out);
   RunRecordings looks;
   const auto show = [&](const Progress& progress) {

@@ -6,8 +6,10 @@
 #include <memory>
 #include <utility>
 
+#include "calibrate/answers.h"
 #include "calibrate/base/text.h"
 #include "calibrate/cli/terminal.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit {
 
@@ -118,8 +120,8 @@ CheckEngine counted(CheckEngine engine, WorkLine& line) {
   return engine;
 }
 
-ProgressLine::ProgressLine(const WorkAhead& work, const ErrorUnit& unit)
-    : line_(StatusLine::Clock::duration::zero()), work_(work), unit_(unit) {}
+ProgressLine::ProgressLine(const Study& study)
+    : line_(StatusLine::Clock::duration::zero()), study_(study), unit_(error_unit_of(study)) {}
 
 void ProgressLine::show(const Progress& progress) {
   const std::lock_guard lock(mutex_);
@@ -145,14 +147,17 @@ void ProgressLine::look() {
 std::string ProgressLine::time_left() const {
   const double elapsed = line_.gone_s();
   if (counts_.simulated == 0 || elapsed <= 0) return "";
-  const int in_phase = counts_.known() - done_before_;
-  const int budget = std::max(0, work_.budget - counts_.known());
-  int least = work_.examination, most = budget;
+  const SearchOptions& search = study_.search;
+  const int each = static_cast<int>(tests_of(study_, false).size()), in_phase = counts_.known() - done_before_;
+  const int budget = std::max(0, search.budget_simulations - counts_.known());
+  const int examination = search.examination_simulations * each + hold_out_simulations(study_);
+  const int confirmation = search.confirmation_packings * each;
+  int least = examination, most = budget;
   if (phase_ == "examination")
-    least = most = std::clamp(work_.examination - in_phase, 0, budget);
+    least = most = std::clamp(examination - in_phase, 0, budget);
   else
-    least += phase_ == "confirmation" ? std::max(0, work_.confirmation - in_phase) : work_.confirmation;
-  if (phase_ == "screening") least += std::max(0, work_.screening - counts_.known());
+    least += phase_ == "confirmation" ? std::max(0, confirmation - in_phase) : confirmation;
+  if (phase_ == "screening") least += std::max(0, search.screening * each - counts_.known());
   const double each_s = elapsed / counts_.simulated;
   return range_of_time(std::min(least, most) * each_s, most * each_s) + " left";
 }
@@ -161,7 +166,7 @@ std::string ProgressLine::text() const {
   int failed = 0;
   for (const auto& [reason, count] : counts_.failures) failed += count;
   std::string line =
-      fitted({format("%s %d of %d%s", phase_.c_str(), counts_.known(), work_.budget,
+      fitted({format("%s %d of %d%s", phase_.c_str(), counts_.known(), study_.search.budget_simulations,
                      line_.is_terminal() ? "" : " simulations"),
               best_error_ < 0 ? "no error yet" : "error " + unit_.words(best_error_, "%.2f"),
               format("%.0f s gone", line_.gone_s()), time_left(), failed > 0 ? format("%d failed", failed) : "",
@@ -173,9 +178,9 @@ std::string ProgressLine::text() const {
 /// Used fraction of the budget as a bar of at most `columns`; empty if there is too little room.
 std::string ProgressLine::bar(std::size_t columns) const {
   constexpr std::size_t kMost = 24, kLeast = 6, kFrame = 3;  // a blank and the brackets
-  if (columns < kLeast + kFrame || work_.budget <= 0) return "";
+  if (columns < kLeast + kFrame || study_.search.budget_simulations <= 0) return "";
   const std::size_t length = std::min(kMost, columns - kFrame);
-  const double share = std::clamp(static_cast<double>(counts_.known()) / work_.budget, 0.0, 1.0);
+  const double share = std::clamp(static_cast<double>(counts_.known()) / study_.search.budget_simulations, 0.0, 1.0);
   const auto full = static_cast<std::size_t>(share * static_cast<double>(length));
   return " [" + std::string(full, '#') + std::string(length - full, '-') + "]";
 }

@@ -69,21 +69,13 @@ class WorkLine {
 /// Engine that counts its simulations in `line`, which must outlive it.
 CheckEngine counted(CheckEngine engine, WorkLine& line);
 
-/// Numbers of simulations of a calibration, over all fitted tests.
-struct WorkAhead {
-  int budget = 0;        ///< largest total
-  int screening = 0;     ///< before the search
-  int confirmation = 0;  ///< of a candidate that is confirmed
-  int examination = 0;   ///< after the search, including held-out tests
-};
-
 /// Progress of a calibration (`StatusLine`): on a terminal, a line cut to its width, with a bar if there is room;
 /// elsewhere at most 80 columns, at the start of each phase and every few seconds. Thread-safe. The remaining time is a
 /// range: from the rest of the phases if the next candidate is confirmed, to the rest of the budget, both at the mean
 /// rate.
 class ProgressLine {
  public:
-  ProgressLine(const WorkAhead& work, const ErrorUnit& unit);
+  explicit ProgressLine(const Study& study);  ///< which must outlive it
   void show(const Progress& progress);        ///< from the search
   void show(const EvaluationCounts& counts);  ///< after each simulation
   void look();                                ///< from time to time during a simulation
@@ -95,7 +87,7 @@ class ProgressLine {
   std::string time_left() const;
 
   StatusLine line_;
-  const WorkAhead work_;
+  const Study& study_;
   const ErrorUnit unit_;
   std::mutex mutex_;
   std::string phase_ = "start";
