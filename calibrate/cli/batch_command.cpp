@@ -14,7 +14,6 @@
 #include "calibrate/calibrate.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
-#include "calibrate/cli/output_file.h"
 #include "calibrate/cli/process.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/evaluate/cost.h"

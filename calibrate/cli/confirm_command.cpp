@@ -18,7 +18,6 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/lammps_run.h"
 #include "calibrate/cli/options.h"
-#include "calibrate/cli/output_file.h"
 #include "calibrate/cli/process.h"
 #include "calibrate/cli/progress.h"
 #include "calibrate/cli/terminal.h"

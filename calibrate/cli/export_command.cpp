@@ -4,7 +4,6 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
-#include "calibrate/cli/output_file.h"
 #include "calibrate/cli/progress.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/exports/export.h"

@@ -13,7 +13,6 @@
 #include "calibrate/card/standing.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
-#include "calibrate/cli/output_file.h"
 #include "calibrate/cli/process.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/report/comparison.h"

@@ -13,7 +13,6 @@
 #include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
-#include "calibrate/cli/output_file.h"
 #include "calibrate/cli/sheet_file.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/cli/understood.h"

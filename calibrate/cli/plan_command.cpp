@@ -10,7 +10,6 @@
 #include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
-#include "calibrate/cli/output_file.h"
 #include "calibrate/cli/process.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/study/apparatus.h"

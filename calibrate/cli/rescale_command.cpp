@@ -7,7 +7,6 @@
 #include "calibrate/check/check.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
-#include "calibrate/cli/output_file.h"
 #include "calibrate/cli/progress.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/evaluate/cost.h"
