@@ -100,11 +100,7 @@ Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const
     note("packing %d of %d: %zu grains\n", i + 1, options.packings, scene.value().packing.centres.size());
     auto heap = run_in_lammps(scene.value(), launch, folder / ("packing-" + std::to_string(packing)), stop);
     if (stop) return interrupted;
-    if (!heap.ok()) {
-      Faults faults = heap.faults();
-      for (Fault& fault : faults) fault.where = "packing " + std::to_string(packing) + ": " + fault.where;
-      return faults;
-    }
+    if (!heap.ok()) return in_file(heap.faults(), interrupted.where);
     const auto& [readings, log] = heap.value();
     note("  %.3g s, %.3g core s, ranks: %d\n", log.wall_s, log.core_s, log.ranks);
     out.program = log.program;
