@@ -47,6 +47,23 @@ constexpr double kHour_s = 3600, kDay_s = 24 * kHour_s;
 // Measured with a mould of 287 grains: 160 kB per picture in blocks of 4 kB, half of it for the links.
 constexpr double kBytesPerGrain = 500, kBytesPerPicture = 12e3;
 
+/// Content is written there, and no file is replaced.
+bool is_stream(const fs::path& file) {
+  const std::string name = file.string();
+  if (name == "-" || name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/"))
+    return true;
+  const std::string special = kind_of_special_file(file);
+  return special == "a FIFO" || special == "a device";
+}
+
+/// The folder as an absolute path, or its nearest existing parent.
+fs::path nearest_there(fs::path folder) {
+  std::error_code error;
+  folder = fs::absolute(folder, error);
+  while (!fs::exists(fs::symlink_status(folder, error)) && folder.has_relative_path()) folder = folder.parent_path();
+  return folder;
+}
+
 }  // namespace
 
 CLI::Validator positive_number() {
@@ -85,14 +102,6 @@ Faults picture_faults(const fs::path& folder, double pictures, double grains, bo
            "a longer interval, another disk, or --force to write until it is full"}};
 }
 
-bool is_stream(const fs::path& file) {
-  const std::string name = file.string();
-  if (name == "-" || name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/"))
-    return true;
-  const std::string special = kind_of_special_file(file);
-  return special == "a FIFO" || special == "a device";
-}
-
 bool is_standard_output(const fs::path& file) {
   return file == "-" || file == "/dev/stdout" || file == "/dev/fd/1" || file == "/proc/self/fd/1";
 }
@@ -114,13 +123,6 @@ Faults output_file_faults(const std::string& option, const fs::path& file, bool 
 
 Faults output_faults(const std::string& option, const fs::path& file, bool force) {
   return is_stream(file) ? Faults{} : output_file_faults(option, file, force);
-}
-
-fs::path nearest_there(fs::path folder) {
-  std::error_code error;
-  folder = fs::absolute(folder, error);
-  while (!fs::exists(fs::symlink_status(folder, error)) && folder.has_relative_path()) folder = folder.parent_path();
-  return folder;
 }
 
 Faults output_folder_faults(const std::string& option, const fs::path& folder) {
