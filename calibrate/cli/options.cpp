@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
-#include <optional>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -21,22 +21,16 @@ namespace pastefit {
 
 namespace {
 
-/// Parses the whole text as a number.
+/// Checks that the whole text is a number from `smallest` to `largest`; `right`: the correct form.
 template <class Number>
-std::optional<Number> number_of(const std::string& text) {
-  Number number{};
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, number);
-  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
-  return number;
-}
-
-template <class Number, class Holds>
-CLI::Validator check_that(std::string right, Holds holds) {
+CLI::Validator number_within(std::string right, Number smallest, Number largest) {
   return CLI::Validator(
-      [right = std::move(right), holds](std::string& text) -> std::string {
-        const auto number = number_of<Number>(text);
-        return number && holds(*number) ? "" : "is " + in_quotes(text) + "; give " + right;
+      [right = std::move(right), smallest, largest](std::string& text) -> std::string {
+        Number number{};
+        const char* const end = text.data() + text.size();
+        const auto read = std::from_chars(text.data(), end, number);
+        const bool whole = read.ec == std::errc() && read.ptr == end;
+        return whole && number >= smallest && number <= largest ? "" : "is " + in_quotes(text) + "; give " + right;
       },
       "");
 }
@@ -67,17 +61,16 @@ fs::path nearest_there(fs::path folder) {
 }  // namespace
 
 CLI::Validator positive_number() {
-  return check_that<double>("a number above 0, at most 1e9", [](double number) { return number > 0 && number <= 1e9; });
+  return number_within("a number above 0, at most 1e9", std::numeric_limits<double>::denorm_min(), 1e9);
 }
 
 CLI::Validator number_from(double smallest, double largest) {
-  return check_that<double>("a number from " + shown(smallest) + " to " + shown(largest),
-                            [=](double number) { return number >= smallest && number <= largest; });
+  return number_within("a number from " + shown(smallest) + " to " + shown(largest), smallest, largest);
 }
 
 CLI::Validator whole_number(std::uint64_t smallest, std::uint64_t largest) {
-  return check_that<std::uint64_t>("a whole number from " + std::to_string(smallest) + " to " + std::to_string(largest),
-                                   [=](std::uint64_t number) { return number >= smallest && number <= largest; });
+  return number_within("a whole number from " + std::to_string(smallest) + " to " + std::to_string(largest), smallest,
+                       largest);
 }
 
 Faults long_run_faults(const std::string& where, const std::string& work, double processor_s, int threads, bool force,
