@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,28 +12,31 @@
 #include "calibrate/base/text.h"
 #include "calibrate/batch/batch.h"
 #include "calibrate/card/standing.h"
+#include "calibrate/check/prediction.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/process.h"
+#include "calibrate/cli/progress.h"
 #include "calibrate/cli/terminal.h"
+#include "calibrate/evaluate/cost.h"
 #include "calibrate/report/comparison.h"
-#include "calibrate/report/diagnosis.h"
 #include "calibrate/report/findings.h"
 #include "calibrate/report/page.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/store/output_folder.h"
+#include "calibrate/study/apparatus.h"
 
 namespace pastefit {
 
 namespace {
 
 struct ShowOptions {
-  std::string place;  ///< a card, or the folder of a calibration
+  std::string card;
   bool json = false;
 };
 
 int show(const ShowOptions& options) {
-  const Card card = value_or_throw(read_card(options.place));
+  const Card card = value_or_throw(read_card(options.card));
   print("%s", (options.json ? json_text(with_yield_stresses(card)) : text_of(card)).c_str());
   return kDone;
 }
@@ -53,41 +57,6 @@ int run_compare(const CompareArguments& options) {
   refuse(std::move(faults));
   print("%s", options.json ? json_text(comparison_json(cards)).c_str() : comparison_lines(cards).c_str());
   return kDone;
-}
-
-/// Card and simulations of a folder; a card alone has no simulations.
-Findings findings_at(const std::string& place) {
-  std::error_code error;
-  Findings findings;
-  if (!std::filesystem::is_directory(place, error)) {
-    findings.card = value_or_throw(read_card(place));
-    return findings;
-  }
-  findings = value_or_throw(read_findings(place, kStore));
-  if (!findings.card)
-    refuse({{place, "has no card to examine: " + one_line(findings.missing.front()),
-             "pastefit calibrate STUDY --out " + shell_word_if_needed(place) + " --resume"}});
-  return findings;
-}
-
-int run_doctor(const ShowOptions& options) {
-  const Findings findings = findings_at(options.place);
-  const Card& card = *findings.card;
-  const auto diagnoses = diagnoses_of(card, findings.evaluations);
-  const auto doubtful = std::ranges::count_if(diagnoses, &Diagnosis::is_doubtful);
-  if (options.json) {
-    print("%s", json_text({{"confirmed", cause_unconfirmed(card).empty()},
-                           {"doubtful", doubtful},
-                           {"diagnoses", diagnosis_json(diagnoses)},
-                           {"missing", findings.missing}})
-                    .c_str());
-    return doubtful == 0 ? kDone : kFailed;
-  }
-  if (const std::string open = unconfirmed_line(card); !open.empty()) print("%s\n", wrapped(one_line(open)).c_str());
-  print("%s", diagnosis_lines(diagnoses).c_str());
-  for (const std::string& one : findings.missing) print("%s\n", wrapped(one_line(one)).c_str());
-  print("%td of %zu doubtful. The pages are those of the manual.\n", doubtful, diagnoses.size());
-  return doubtful == 0 ? kDone : kFailed;
 }
 
 struct ReportOptions {
@@ -121,11 +90,178 @@ int write_report(const ReportOptions& options) {
   return kDone;
 }
 
+struct PredictOptions {
+  std::string folder, lab, preset;
+  int packings = 4, threads = 0;
+  bool force = false, json = false;
+};
+
+Test test_of_preset(const std::string& name, const Card& card) {
+  Test test = value_or_throw(find_preset(preset_of_standard(name, "."), ".")).test;
+  specimen_of(test).bulk_density_kg_m3 = card.material.bulk_density_kg_m3;
+  return test;
+}
+
+std::string prediction_table(const Prediction& found, std::size_t materials) {
+  std::string out =
+      format("%-26s %9s %15s %15s %8s\n", "Reading", "predicted", "90 % of heaps", "materials", "measured");
+  for (const ReadingPrediction& one : found.readings) {
+    const auto [least, most] = std::ranges::minmax(one.of_materials);
+    const std::string measured = one.measured ? plain(one.measured->value, 3) : "";
+    out += format("%-26s %9s %15s %15s %8s%s\n", one.name.c_str(), plain(one.mean, 3).c_str(),
+                  (plain(one.lower, 3) + " to " + plain(one.upper, 3)).c_str(),
+                  (plain(least, 3) + " to " + plain(most, 3)).c_str(), measured.c_str(), one.is_within() ? "" : " x");
+  }
+  if (!std::ranges::all_of(found.readings, &ReadingPrediction::is_within))
+    out += "x: the measured value lies outside the band.\n";
+  out += format("%zu materials that fit the readings of the calibration, %d heaps", materials, found.heaps);
+  if (found.rejected > 0) out += format("; %d of them sheared off and are left out", found.rejected);
+  if (found.failed > 0) out += format("; %d of them never came to rest, or failed, and are left out", found.failed);
+  if (found.spilled > 0) out += format("; %d slid off the table and are left out", found.spilled);
+  return wrapped(out + ".\n");
+}
+
+nlohmann::ordered_json prediction_json(const Prediction& found, std::size_t materials) {
+  nlohmann::ordered_json out{{"materials", materials},
+                             {"heaps", found.heaps},
+                             {"rejected", found.rejected},
+                             {"failed", found.failed},
+                             {"spilled", found.spilled},
+                             {"level", prediction_level},
+                             {"readings", nlohmann::ordered_json::object()}};
+  for (const ReadingPrediction& one : found.readings) {
+    nlohmann::ordered_json& row = out["readings"][one.name];
+    row = {{"mean", one.mean},
+           {"lower", one.lower},
+           {"upper", one.upper},
+           {"of_materials", one.of_materials},
+           {"standard_deviation_of_heap", one.of_heap}};
+    if (one.measured) row["measured"] = one.measured->value;
+  }
+  return out;
+}
+
+/// Reading of a preset, as a candidate for the next measurement.
+struct NextReading {
+  std::string preset;
+  ReadingPrediction reading;
+};
+
+struct NextTests {
+  std::vector<NextReading> readings;                          ///< most discriminating first
+  std::vector<std::pair<std::string, std::string>> left_out;  ///< presets, and the reason
+};
+
+constexpr double worth_taking = 0.7;  // largest remaining width for which a test is worthwhile
+
+std::string next_table(const NextTests& next) {
+  std::string out = format("%-18s %-26s %17s %11s\n", "Measure next", "reading", "materials", "width left");
+  bool any = false;
+  for (const auto& [preset, one] : next.readings) {
+    if (one.width_left() > worth_taking) continue;
+    const auto [least, most] = std::ranges::minmax(one.of_materials);
+    out += format("%-18s %-26s %17s %9.0f %%\n", preset.c_str(), one.name.c_str(),
+                  (plain(least, 3) + " to " + plain(most, 3)).c_str(), 100 * one.width_left());
+    any = true;
+  }
+  if (!any) out = "No preset distinguishes between the materials that fit: their readings hardly differ.\n";
+  for (const auto& [preset, why] : next.left_out) out += "Not predicted: " + preset + ", " + why + ".\n";
+  return out;
+}
+
+nlohmann::ordered_json next_json(const NextTests& next) {
+  nlohmann::ordered_json out{{"readings", nlohmann::ordered_json::array()},
+                             {"left_out", nlohmann::ordered_json::object()}};
+  for (const auto& [preset, one] : next.readings)
+    out["readings"].push_back({{"preset", preset},
+                               {"reading", one.name},
+                               {"of_materials", one.of_materials},
+                               {"standard_deviation_of_test", one.of_test},
+                               {"width_left", one.width_left()}});
+  for (const auto& [preset, why] : next.left_out) out["left_out"][preset] = why;
+  return out;
+}
+
+/// Heaps of one test.
+int simulations_of(const FittingMaterials& family, const PredictOptions& options) {
+  return options.packings * static_cast<int>(family.values.size());
+}
+
+/// Refuses tests that cannot be predicted, or take too long.
+void check_effort(const FittingMaterials& family, const Test& other, const PredictOptions& options, int tests = 1) {
+  const Test test = with_material_of(family.card, other);
+  refuse(validate(test));
+  refuse(validate_memory(test, options.threads));
+  const int simulations = tests * simulations_of(family, options);
+  refuse(long_run_faults("--packings", format("%d simulations", simulations), simulations * least_effort_s(test),
+                         options.threads, options.force, "fewer --packings"));
+}
+
+/// Predicts the readings of each preset, and their discrimination between the materials.
+int predict_presets(const FittingMaterials& family, const PredictOptions& options) {
+  NextTests next;
+  std::vector<std::pair<std::string, Test>> tests;
+  std::vector<nlohmann::json> described;
+  for (const std::string& name : preset_names(".")) {
+    const Test test = test_of_preset(name, family.card);
+    if (const auto same = std::ranges::find(described, to_json(test)); same != described.end()) {
+      tests[static_cast<std::size_t>(same - described.begin())].first = name;  // second name of the same apparatus
+      continue;
+    }
+    if (const auto faults = validate(with_material_of(family.card, test)); !faults.empty()) {
+      next.left_out.emplace_back(name, faults.front().where + " " + faults.front().what);
+    } else {
+      tests.emplace_back(name, test);
+      described.push_back(to_json(test));
+    }
+  }
+  const int count = static_cast<int>(tests.size());
+  for (const auto& [name, test] : tests) check_effort(family, test, options, count);
+  WorkLine line("simulations", count * simulations_of(family, options));
+  const CheckEngine engine = counted(CheckEngine::ours(), line);
+  for (const auto& [name, test] : tests) {
+    const auto found = predict(family.card, family.values, test, {}, options.packings, options.threads, engine);
+    if (!found.ok()) next.left_out.emplace_back(name, found.faults().front().what);
+    if (!found.ok()) continue;
+    for (const ReadingPrediction& one : found.value().readings) next.readings.push_back({name, one});
+  }
+  line.clear();
+  std::ranges::stable_sort(next.readings, {}, [](const NextReading& one) { return one.reading.width_left(); });
+  const std::string open = unconfirmed_line(family.card);
+  print("%s", (options.json ? json_text(next_json(next))
+                            : wrapped((open.empty() ? "" : one_line(open) + "\n") + next_table(next)))
+                  .c_str());
+  return kDone;
+}
+
+int predict_other(const PredictOptions& options) {
+  const FittingMaterials family = value_or_throw(read_fitting_materials(options.folder, kStore));
+  if (options.lab.empty() && options.preset.empty()) return predict_presets(family, options);
+  std::optional<Lab> lab;
+  if (!options.lab.empty()) lab = value_or_throw(read_lab(options.lab));
+  const Test test = lab ? lab->test : test_of_preset(options.preset, family.card);
+  check_effort(family, test, options);
+  WorkLine line("simulations", simulations_of(family, options));
+  const Prediction found =
+      value_or_throw(predict(family.card, family.values, test, lab ? lab->measurements : std::vector<Measurement>(),
+                             options.packings, options.threads, counted(CheckEngine::ours(), line)),
+                     kFailed);
+  line.clear();
+  const std::size_t materials = family.values.size();
+  if (options.json) {
+    print("%s", json_text(prediction_json(found, materials)).c_str());
+  } else {
+    const std::string open = unconfirmed_line(family.card);
+    print("%s%s", open.empty() ? "" : (one_line(open) + "\n").c_str(), prediction_table(found, materials).c_str());
+  }
+  return std::ranges::all_of(found.readings, &ReadingPrediction::is_within) ? kDone : kFailed;
+}
+
 }  // namespace
 
 Command add_show(CLI::App& verb) {
   const auto options = std::make_shared<ShowOptions>();
-  verb.add_option("CARD", options->place, "card file")->required();
+  verb.add_option("CARD", options->card, "card file")->required();
   verb.add_flag("--json", options->json,
                 "print the card as JSON, in the format of this version, with the yield stresses of its readings");
   return [options] { return show(*options); };
@@ -139,19 +275,31 @@ Command add_compare(CLI::App& verb) {
   return [options] { return run_compare(*options); };
 }
 
-Command add_doctor(CLI::App& verb) {
-  const auto options = std::make_shared<ShowOptions>();
-  verb.add_option("PLACE", options->place, "folder of a calibration, or a card")->required();
-  verb.add_flag("--json", options->json, "print the findings as JSON");
-  return [options] { return run_doctor(*options); };
-}
-
 Command add_report(CLI::App& verb) {
   const auto options = std::make_shared<ReportOptions>();
   verb.add_option("DIR", options->folder, "folder of a finished or running calibration, or of several")->required();
   verb.add_flag("--quick", options->quick, "do not simulate a missing animation or missing heaps");
   add_threads(verb, options->threads);
   return [options] { return write_report(*options); };
+}
+
+Command add_predict(CLI::App& verb) {
+  const auto options = std::make_shared<PredictOptions>();
+  verb.add_option("DIR", options->folder, "folder of a calibration")->required();
+  auto* lab =
+      verb.add_option("--lab", options->lab, "laboratory file of the test to predict; its readings are compared")
+          ->type_name("LAB");
+  verb.add_option("--preset", options->preset,
+                  "preset of the test to predict, e.g. hinged-plate; without it and --lab: all presets")
+      ->type_name("PRESET")
+      ->excludes(lab);
+  verb.add_option("--packings", options->packings, "heaps per material")
+      ->check(whole_number(2, 1000))
+      ->capture_default_str();
+  add_threads(verb, options->threads);
+  verb.add_flag("--force", options->force, "start even if it takes more than a day");
+  verb.add_flag("--json", options->json, "print the prediction as JSON");
+  return [options] { return predict_other(*options); };
 }
 
 }  // namespace pastefit

@@ -1,20 +1,68 @@
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/check/check.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/progress.h"
 #include "calibrate/cli/terminal.h"
+#include "calibrate/report/diagnosis.h"
+#include "calibrate/report/findings.h"
+#include "calibrate/store/output_folder.h"
+#include "calibrate/verify/verify.h"
 
 namespace pastefit {
 
 namespace {
+
+struct DoctorOptions {
+  std::string place;  ///< folder of a calibration, or a card
+  bool json = false;
+};
+
+/// Card and simulations of a folder; a card alone has no simulations.
+Findings findings_at(const std::string& place) {
+  std::error_code error;
+  Findings findings;
+  if (!std::filesystem::is_directory(place, error)) {
+    findings.card = value_or_throw(read_card(place));
+    return findings;
+  }
+  findings = value_or_throw(read_findings(place, kStore));
+  if (!findings.card)
+    refuse({{place, "has no card to examine: " + one_line(findings.missing.front()),
+             "pastefit calibrate STUDY --out " + shell_word_if_needed(place) + " --resume"}});
+  return findings;
+}
+
+int run_doctor(const DoctorOptions& options) {
+  const Findings findings = findings_at(options.place);
+  const Card& card = *findings.card;
+  const auto diagnoses = diagnoses_of(card, findings.evaluations);
+  const auto doubtful = std::ranges::count_if(diagnoses, &Diagnosis::is_doubtful);
+  if (options.json) {
+    print("%s", json_text({{"confirmed", cause_unconfirmed(card).empty()},
+                           {"doubtful", doubtful},
+                           {"diagnoses", diagnosis_json(diagnoses)},
+                           {"missing", findings.missing}})
+                    .c_str());
+    return doubtful == 0 ? kDone : kFailed;
+  }
+  if (const std::string open = unconfirmed_line(card); !open.empty()) print("%s\n", wrapped(one_line(open)).c_str());
+  print("%s", diagnosis_lines(diagnoses).c_str());
+  for (const std::string& one : findings.missing) print("%s\n", wrapped(one_line(one)).c_str());
+  print("%td of %zu doubtful. The pages are those of the manual.\n", doubtful, diagnoses.size());
+  return doubtful == 0 ? kDone : kFailed;
+}
 
 struct CheckCommand {
   std::vector<std::string> cards;
@@ -101,7 +149,67 @@ int check_all(const CheckCommand& options) {
   return status_of(checked);
 }
 
+struct VerifyOptions {
+  std::vector<std::string> cases;
+  bool json = false;
+  bool points = false;
+  bool formulas = false;
+};
+
+void print_row(const std::string& name, const CheckRow& row, std::size_t points) {
+  std::string at = row.point;
+  if (points > 1) at += " (worst of " + std::to_string(points) + ")";
+  print("%-23s %-28s %s%13.6g %14.6g %9.2e %9.0e  %-5s %s\n", name.c_str(), row.reading.c_str(), row.bound ? "<" : " ",
+        row.expected, row.got, row.error, row.tolerance, std::string(name_of(row.verdict)).c_str(), at.c_str());
+}
+
+/// Prints the reason of each check that did not pass; equal ones once.
+void print_notes(const std::vector<CheckRow>& rows) {
+  std::set<std::string> told;
+  for (const CheckRow& row : rows)
+    if (!row.note.empty() && told.insert(row.note).second) print("  %s\n", row.note.c_str());
+}
+
+void print_cases(const std::vector<VerifiedCase>& cases, bool every_point) {
+  print("%-23s %-28s %14s %14s %9s %9s  %-5s %s\n", "case", "reading", "expected", "got", "error", "tolerance", "",
+        "at");
+  for (const auto& [file, test, rows] : cases) {
+    for (const CheckRow& row : every_point ? rows : worst_rows(rows))
+      print_row(test.name, row, every_point ? 1 : test.points.size());
+    print_notes(rows);
+  }
+}
+
+int run_verify(const VerifyOptions& options) {
+  if (options.formulas) {
+    for (const Formula& formula : formulas())
+      print("%-22s %s\n", std::string(formula.name).c_str(), std::string(formula.meaning).c_str());
+    return kDone;
+  }
+  std::optional<WorkLine> line;
+  const auto begin = [&](int points) { line.emplace("points", points); };
+  const auto verified = verify_cases(options.cases, begin, [&] { line->one_done(); });
+  if (line) line->clear();
+  const std::vector<VerifiedCase> cases = value_or_throw(verified);
+  const VerifyCounts counts = counts_of(cases);
+  if (options.json) {
+    print("%s", json_text(to_json(cases)).c_str());
+  } else {
+    print_cases(cases, options.points);
+    print("%zu cases, %zu checks, %zu failed, %zu known deviations\n", cases.size(), counts.checks, counts.failed,
+          counts.known);
+  }
+  return counts.failed == 0 ? kDone : kFailed;
+}
+
 }  // namespace
+
+Command add_doctor(CLI::App& verb) {
+  const auto options = std::make_shared<DoctorOptions>();
+  verb.add_option("PLACE", options->place, "folder of a calibration, or a card")->required();
+  verb.add_flag("--json", options->json, "print the findings as JSON");
+  return [options] { return run_doctor(*options); };
+}
 
 Command add_check(CLI::App& verb) {
   const auto options = std::make_shared<CheckCommand>();
@@ -131,6 +239,15 @@ Command add_check(CLI::App& verb) {
       ->needs(rebaseline)
       ->check(whole_number(2, 1000));
   return [options] { return options->rebaseline ? rebaseline_all(*options) : check_all(*options); };
+}
+
+Command add_verify(CLI::App& verb) {
+  const auto options = std::make_shared<VerifyOptions>();
+  verb.add_option("CASE", options->cases, "names of shipped cases, or case files; default: all shipped cases");
+  verb.add_flag("--json", options->json, "print every check at every point as JSON");
+  verb.add_flag("--points", options->points, "print every point of a case, not only its worst");
+  verb.add_flag("--formulas", options->formulas, "list the closed forms that a case may name");
+  return [options] { return run_verify(*options); };
 }
 
 }  // namespace pastefit
