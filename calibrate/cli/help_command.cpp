@@ -37,21 +37,17 @@ std::string roff(std::string_view text) {
   return out;
 }
 
-bool is_positional(const CLI::Option& option) {
-  return !option.nonpositional();
-}
-
 /// "--out DIR", "-h,--help", "STUDY".
 std::string shape_of(const CLI::Option& option) {
-  const std::string name = option.get_name(is_positional(option), !is_positional(option));
-  const std::string type = option.get_type_name();
-  return is_positional(option) || type.empty() || option.get_items_expected_max() == 0 ? name : name + " " + type;
+  const bool positional = option.get_positional();
+  const std::string name = option.get_name(positional, !positional), type = option.get_type_name();
+  return positional || type.empty() || option.get_items_expected_max() == 0 ? name : name + " " + type;
 }
 
 std::string synopsis_of(const CLI::App& verb) {
   std::string out;
   for (const CLI::Option* option : verb.get_options()) {
-    if (is_positional(*option))
+    if (option->get_positional())
       out += option->get_required() ? " " + option->get_name(true) : " [" + option->get_name(true) + "]";
     else if (option->get_required())
       out += " " + shape_of(*option);

@@ -10,6 +10,7 @@
 #include "calibrate/base/text.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/study/tests.h"
+#include "calibrate/study/tolerance.h"
 
 namespace pastefit {
 
@@ -120,9 +121,6 @@ CheckEngine counted(CheckEngine engine, WorkLine& line) {
   return engine;
 }
 
-ProgressLine::ProgressLine(const Study& study)
-    : line_(StatusLine::Clock::duration::zero()), study_(study), unit_(error_unit_of(study)) {}
-
 void ProgressLine::show(const Progress& progress) {
   const std::lock_guard lock(mutex_);
   const bool new_phase = progress.phase != phase_;
@@ -168,7 +166,7 @@ std::string ProgressLine::text() const {
   std::string line =
       fitted({format("%s %d of %d%s", phase_.c_str(), counts_.known(), study_.search.budget_simulations,
                      line_.is_terminal() ? "" : " simulations"),
-              best_error_ < 0 ? "no error yet" : "error " + unit_.words(best_error_, "%.2f"),
+              best_error_ < 0 ? "no error yet" : "error " + error_unit_of(study_).words(best_error_, "%.2f"),
               format("%.0f s gone", line_.gone_s()), time_left(), failed > 0 ? format("%d failed", failed) : "",
               counts_.answered > 0 ? format("%d known", counts_.answered) : ""});
   if (line_.is_terminal()) line.insert(phase_.size(), bar(columns() - 1 - std::min(line.size(), columns() - 1)));

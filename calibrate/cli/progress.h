@@ -75,7 +75,8 @@ CheckEngine counted(CheckEngine engine, WorkLine& line);
 /// rate.
 class ProgressLine {
  public:
-  explicit ProgressLine(const Study& study);  ///< which must outlive it
+  /// `study` must outlive the line.
+  explicit ProgressLine(const Study& study) : line_(StatusLine::Clock::duration::zero()), study_(study) {}
   void show(const Progress& progress);        ///< from the search
   void show(const EvaluationCounts& counts);  ///< after each simulation
   void look();                                ///< from time to time during a simulation
@@ -88,7 +89,6 @@ class ProgressLine {
 
   StatusLine line_;
   const Study& study_;
-  const ErrorUnit unit_;
   std::mutex mutex_;
   std::string phase_ = "start";
   int done_before_ = 0;  // before the current phase
