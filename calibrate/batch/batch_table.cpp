@@ -7,6 +7,7 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/batch/batch.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/report/page.h"
 #include "calibrate/report/summary.h"
@@ -22,21 +23,12 @@ using nlohmann::ordered_json;
 
 /// Rejected fraction of the confirmation packings over all fitted tests; nothing for kinds of tests without rejection.
 ordered_json sheared_share_of(const Card& card) {
-  bool known = false;
-  std::size_t runs = 0;
-  for (const CardTest& test : card.tests)
-    if (!test.hold_out) runs = std::max(runs, test.baseline.runs.size());
-  std::vector<bool> rejected(runs, false);
-  for (const CardTest& test : card.tests) {
-    if (test.hold_out) continue;
-    for (std::size_t i = 0; i < test.baseline.runs.size(); ++i)
-      if (const auto index = rejection_index(test.test, test.baseline.runs[i].readings)) {
-        known = true;
-        if (*index > 1) rejected[i] = true;
-      }
-  }
-  if (!known) return nullptr;
-  return static_cast<double>(std::ranges::count(rejected, true)) / static_cast<double>(runs);
+  const auto is_judged = [](const CardTest& one) {
+    return !one.hold_out && !one.baseline.runs.empty() && rejection_index(one.test, {}).has_value();
+  };
+  if (std::ranges::none_of(card.tests, is_judged)) return nullptr;
+  const Evidence evidence = evidence_of(card.tests);
+  return static_cast<double>(evidence.rejected) / evidence.heaps;
 }
 
 /// Whether each held-out test was predicted; nothing without one that was judged.
