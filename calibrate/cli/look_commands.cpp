@@ -141,15 +141,10 @@ nlohmann::ordered_json prediction_json(const Prediction& found, std::size_t mate
   return out;
 }
 
-/// Reading of a preset, as a candidate for the next measurement.
-struct NextReading {
-  std::string preset;
-  ReadingPrediction reading;
-};
-
+/// Candidates for the next measurement.
 struct NextTests {
-  std::vector<NextReading> readings;                          ///< most discriminating first
-  std::vector<std::pair<std::string, std::string>> left_out;  ///< presets, and the reason
+  std::vector<std::pair<std::string, ReadingPrediction>> readings;  ///< of presets, most discriminating first
+  std::vector<std::pair<std::string, std::string>> left_out;        ///< presets, and the reason
 };
 
 constexpr double worth_taking = 0.7;  // largest remaining width for which a test is worthwhile
@@ -201,19 +196,15 @@ void check_effort(const FittingMaterials& family, const Test& other, const Predi
 int predict_presets(const FittingMaterials& family, const PredictOptions& options) {
   NextTests next;
   std::vector<std::pair<std::string, Test>> tests;
-  std::vector<nlohmann::json> described;
   for (const std::string& name : preset_names(".")) {
     const Test test = test_of_preset(name, family.card);
-    if (const auto same = std::ranges::find(described, to_json(test)); same != described.end()) {
-      tests[static_cast<std::size_t>(same - described.begin())].first = name;  // second name of the same apparatus
-      continue;
-    }
-    if (const auto faults = validate(with_material_of(family.card, test)); !faults.empty()) {
+    const auto same = std::ranges::find(tests, to_json(test), [](const auto& one) { return to_json(one.second); });
+    if (same != tests.end())
+      same->first = name;  // second name of the same apparatus
+    else if (const auto faults = validate(with_material_of(family.card, test)); !faults.empty())
       next.left_out.emplace_back(name, faults.front().where + " " + faults.front().what);
-    } else {
+    else
       tests.emplace_back(name, test);
-      described.push_back(to_json(test));
-    }
   }
   const int count = static_cast<int>(tests.size());
   for (const auto& [name, test] : tests) check_effort(family, test, options, count);
@@ -223,10 +214,10 @@ int predict_presets(const FittingMaterials& family, const PredictOptions& option
     const auto found = predict(family.card, family.values, test, {}, options.packings, options.threads, engine);
     if (!found.ok()) next.left_out.emplace_back(name, found.faults().front().what);
     if (!found.ok()) continue;
-    for (const ReadingPrediction& one : found.value().readings) next.readings.push_back({name, one});
+    for (const ReadingPrediction& one : found.value().readings) next.readings.emplace_back(name, one);
   }
   line.clear();
-  std::ranges::stable_sort(next.readings, {}, [](const NextReading& one) { return one.reading.width_left(); });
+  std::ranges::stable_sort(next.readings, {}, [](const auto& one) { return one.second.width_left(); });
   const std::string open = unconfirmed_line(family.card);
   print("%s", (options.json ? json_text(next_json(next))
                             : wrapped((open.empty() ? "" : one_line(open) + "\n") + next_table(next)))
