@@ -36,8 +36,7 @@ std::vector<pugi::xml_node> children(const pugi::xml_node& node, std::string_vie
 }
 
 pugi::xml_node child(const pugi::xml_node& node, std::string_view name) {
-  const auto found = children(node, name);
-  return found.empty() ? pugi::xml_node() : found.front();
+  return node.find_child([&](const pugi::xml_node& one) { return local_name(one) == name; });
 }
 
 /// XML part of a workbook. False if it is missing, damaged, or too large.
