@@ -149,7 +149,9 @@ Result<LammpsHeap> read_heap(const ExportScene& scene, const fs::path& folder, c
   }
   auto readings = read_heaps(scene.test, std::nullopt, grains[0], std::span(grains).subspan(1), shown_run(&stop));
   if (!readings.ok()) return readings.faults();
-  return LammpsHeap{std::move(readings).value(), read_lammps_log(content_of_file(folder / kLog))};
+  LammpsHeap heap{std::move(readings).value(), read_lammps_log(content_of_file(folder / kLog))};
+  if (heap.log.slide_angle_deg) heap.readings.set("tilt.slide_angle_deg", *heap.log.slide_angle_deg);
+  return heap;
 }
 
 }  // namespace

@@ -74,8 +74,8 @@ struct Application {
 };
 
 /// Reads a file ("format": "pastefit-application-1") and its STL files. A name without a suffix, if there is no such
-/// file, is that of a shipped machine: "chute" is `applications/chute.json` of the program's data. `usual`: surface of parts whose properties the
-/// file does not give. Errors: every fault, with its place.
+/// file, is that of a shipped machine: "chute" is `applications/chute.json` of the program's data. `usual`: surface of
+/// parts whose properties the file does not give. Errors: every fault, with its place.
 Result<Application> read_application(const std::filesystem::path& file, const WallContact& usual);
 
 /// Faults of an application with grains of this largest radius and density: a feed too narrow for the grains, or for

@@ -219,7 +219,8 @@ Result<Export> export_card(const Card& card, const Exporter& exporter, const Exp
   if (!answer.ok()) faults.insert(faults.end(), answer.faults().begin(), answer.faults().end());
   if (!faults.empty()) return faults;
   Export written = std::move(answer).value();
-  if (const SlumpTest* slump = scene.value().slump(); slump && slump->tilt && !scene.value().application)
+  if (const SlumpTest* slump = scene.value().slump();
+      slump && slump->tilt && !scene.value().application && exporter.name != "lammps")
     written.notes.push_back("The tilt of the table (tilt.slide_angle_deg) is not part of the deck.");
   written.files.push_back({kExportNotes, one_line(scene.value().title) + "\n" +
                                              export_notes(written, exporter, card, test.value(), request)});

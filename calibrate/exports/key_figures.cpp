@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Column = std::vector<double>;
-using FigureTable = std::map<std::string, Column>;
+using FigureColumn = std::vector<double>;
+using FigureTable = std::map<std::string, FigureColumn>;
 
 const std::string kFigureFile = "figures.csv";
 
@@ -53,14 +53,14 @@ Result<FigureTable> read_table(const fs::path& file) {
 }
 
 /// Mean of a column over the rows of a window.
-double mean_over(const Column& column, std::size_t first, std::size_t last) {
+double mean_over(const FigureColumn& column, std::size_t first, std::size_t last) {
   return std::accumulate(column.begin() + static_cast<std::ptrdiff_t>(first),
                          column.begin() + static_cast<std::ptrdiff_t>(last) + 1, 0.0) /
          static_cast<double>(last - first + 1);
 }
 
 /// First row in which a column is at least this value; the last row if there is none.
-std::size_t first_row(const Column& column, double least) {
+std::size_t first_row(const FigureColumn& column, double least) {
   const auto found = std::ranges::find_if(column, [&](double value) { return value >= least; });
   return static_cast<std::size_t>(std::min(found, column.end() - 1) - column.begin());
 }
@@ -68,8 +68,8 @@ std::size_t first_row(const Column& column, double least) {
 using Figures = std::vector<std::pair<std::string, double>>;
 
 Figures figures_of(FigureTable& table) {
-  const Column& time = table["time_s"];
-  Column out = table["fed_kg"];
+  const FigureColumn& time = table["time_s"];
+  FigureColumn out = table["fed_kg"];
   for (std::size_t n = 0; n < out.size(); ++n) out[n] -= table["inside_kg"][n];
   const double fed = table["fed_kg"].back(), left = out.back();
   constexpr double least_share = 0.05;  // less is no discharge, but what splashes
@@ -82,7 +82,7 @@ Figures figures_of(FigureTable& table) {
   if (left >= 0.5 * fed) figures.emplace_back("time_to_50_percent_s", time[first_row(out, 0.5 * fed)]);
   for (const auto& entry : table) {
     const std::string& name = entry.first;
-    const Column& column = entry.second;
+    const FigureColumn& column = entry.second;
     const auto mean_as = [&](std::string_view ending, const std::string& as, double factor = 1) {
       if (!name.ends_with(ending)) return;
       figures.emplace_back(name.substr(0, name.size() - ending.size()) + as, factor * mean_over(column, first, last));

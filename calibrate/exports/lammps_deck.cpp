@@ -5,11 +5,13 @@
 #include <locale>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 #include <string>
 
 #include "calibrate/base/embedded_text.h"
 #include "calibrate/base/object_writer.h"
 #include "calibrate/base/text.h"
+#include "calibrate/base/units.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/store/program.h"
@@ -107,6 +109,17 @@ std::string drop_of(const DropPlate& drop) {
                                                     {"arm", full(0.5 * drop.length_m)}});
 }
 
+/// The table is tilted with the heap of step 1 on it (core/apparatus/slump/tilt.h).
+std::string tilt_of(const SlumpTest& test, double grain_density) {
+  return filled_in("exports/texts/lammps_tilt.in",
+                   {{"rate", full(test.tilt->rate_deg_s)},
+                    {"rate_rad", full(test.tilt->rate_deg_s / degrees)},
+                    {"unit_sphere_mass", full(4.0 / 3 * std::numbers::pi * grain_density)},
+                    {"slide", full(test.tilt->slide_m)},
+                    {"half", full(0.5 * test.table_length_m)},
+                    {"steepest", full(kSteepest)}});
+}
+
 /// material.inc: laws only, included after the grains by decks and by users' scripts.
 std::string material_file(const ExportScene& scene) {
   return filled_in("exports/texts/lammps_material.in", {{"title", deck_comment(scene.title)},
@@ -120,20 +133,21 @@ std::string material_file(const ExportScene& scene) {
                                                         {"wall_laws", wall_laws(scene)}});
 }
 
-/// Slump test: relax in the mould, lift, rest; with a drop plate also step 2: turn the plate up, rest, drop, rest.
+/// Slump test: relax in the mould, lift, rest; with a drop plate also step 2: turn the plate up, rest, drop, rest; with
+/// a tilt, tilt the table.
 /// Notes become comments.
 std::string slump_deck(const ExportScene& scene, const std::vector<std::string>& notes) {
   const SlumpTest& test = *scene.slump();
   const double half = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
-  const bool falls = test.drop && test.drop->motion == TableMotion::hinged;
+  const bool falls = test.drop && test.drop->motion == TableMotion::hinged, turns = falls || test.tilt;
   return filled_in("exports/texts/lammps_slump.in",
                    {{"header", header(scene, notes)},
                     {"skin", shown(0.15 * scene.sizes.radii_m[0])},
                     {"time_step", shown(deck_time_step_s(scene))},
                     {"half", full(half)},
                     {"middle", full(-0.5 * kGroundDepth)},
-                    {"tilt", falls ? "variable     tilt equal 0" : ""},
-                    {"turning", falls ? " rotate v_tilt " + full(-half) + " 0 0 0 1 0" : ""},
+                    {"tilt", turns ? "variable     tilt equal 0" : ""},
+                    {"turning", turns ? " rotate v_tilt " + full(-half) + " 0 0 0 1 0" : ""},
                     {"ground", full(-kGroundDepth)},
                     {"base_radius", full(test.mould.base_radius_m)},
                     {"top_radius", full(test.mould.top_radius_m)},
@@ -142,7 +156,9 @@ std::string slump_deck(const ExportScene& scene, const std::vector<std::string>&
                     {"drag", drag(scene)},
                     {"velocity", full(test.lift_velocity_m_s)},
                     {"lift_time", shown(1.2 * test.mould.height_m / test.lift_velocity_m_s)},
-                    {"drop", falls ? drop_of(*test.drop) : ""}});
+                    {"drop", falls       ? drop_of(*test.drop)
+                             : test.tilt ? tilt_of(test, scene.grain_density_kg_m3)
+                                         : ""}});
 }
 
 std::string two_grains_deck(const ExportScene& scene, const std::vector<std::string>& notes) {
@@ -194,7 +210,10 @@ std::vector<std::string> lammps_dumps(const ExportScene& scene) {
 std::vector<ExportFile> lammps_deck(const ExportScene& scene, const std::vector<std::string>& notes) {
   const ExportFile material{"material.inc", material_file(scene)};
   if (!scene.slump()) return {{"in.two_grains", two_grains_deck(scene, notes)}, material};
-  const DataFile data{static_cast<int>(scene.sizes.radii_m.size()), true, -kGroundDepth, 2, " # sphere"};
+  const SlumpTest& test = *scene.slump();
+  const double heights =
+      2 + (test.tilt ? test.table_length_m / test.mould.height_m : 0);  // a tilted table lifts the heap
+  const DataFile data{static_cast<int>(scene.sizes.radii_m.size()), true, -kGroundDepth, heights, " # sphere"};
   return {{kLammpsDeck, slump_deck(scene, notes)},
           {"in.two_grains", two_grains_deck(scene, {})},
           material,
@@ -238,6 +257,12 @@ bool is_loop(const std::string& line, double& seconds, int& ranks) {
   return words && possible && loop == "Loop" && time == "time" && of == "of" && on == "on";
 }
 
+/// "slide angle 18.5 degrees".
+bool is_slide_angle(const std::string& line, double& angle_deg) {
+  std::string slide, angle;
+  return line_stream(line) >> slide >> angle >> angle_deg && slide == "slide" && angle == "angle";
+}
+
 /// "99.5% CPU use with ...".
 bool is_share(const std::string& line, double& percent) {
   constexpr double most_percent = 1e5;
@@ -270,6 +295,8 @@ LammpsLog read_lammps_log(std::string_view text) {
       log.ranks = std::max(log.ranks, ranks);
     } else if (is_share(line, percent)) {
       share = percent / 100;
+    } else if (double angle = 0; is_slide_angle(line, angle)) {
+      log.slide_angle_deg = angle;
     } else if (line.starts_with("Total wall time:")) {
       log.ended = true;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,13 +47,14 @@ std::string grains_data(const ExportScene& scene, const DataFile& file);
 double deck_time_step_s(const ExportScene& scene);
 
 struct LammpsLog {
-  std::string program;  ///< first line, e.g. "LAMMPS (29 Sep 2021 - Update 2)"; may be empty
-  int copies = 0;       ///< occurrences of that line: one per run
-  int ranks = 0;        ///< of the time steps; 0: no steps
-  double wall_s = 0;    ///< of all time steps
-  double core_s = 0;    ///< processor time of all ranks in them
-  std::string error;    ///< first line beginning with "ERROR"; may be empty
-  bool ended = false;   ///< the last line was written
+  std::string program;                    ///< first line, e.g. "LAMMPS (29 Sep 2021 - Update 2)"; may be empty
+  int copies = 0;                         ///< occurrences of that line: one per run
+  int ranks = 0;                          ///< of the time steps; 0: no steps
+  double wall_s = 0;                      ///< of all time steps
+  double core_s = 0;                      ///< processor time of all ranks in them
+  std::optional<double> slide_angle_deg;  ///< of a tilted table, as the deck prints it
+  std::string error;                      ///< first line beginning with "ERROR"; may be empty
+  bool ended = false;                     ///< the last line was written
 };
 
 /// Parses a log.lammps, or the standard output of LAMMPS. Of each `run` it takes the lines "Loop time of ... on ...

@@ -20,7 +20,7 @@ struct Heading {
   std::string_view is, says;
 };
 
-constexpr std::array<Heading, 15> headings{{
+constexpr std::array<Heading, 16> headings{{
     {kIsSample,
      "|sample|sample id|sample no|mix|mix id|mix no|mixture|specimen|id|no|nr|name|batch|series|test|probe|probe "
      "nr|probennummer|mischung|mischung nr|rezeptur|charge|serie|lfd nr|"},
@@ -38,6 +38,7 @@ constexpr std::array<Heading, 15> headings{{
     {"flow", "|flow value|flow diameter|ausbreitmass|"},
     {"mass", "|masse|"},
     {"angle", "|angle of repose|schuettwinkel|"},
+    {"slide-angle", "|slide angle|sliding angle|angle of slide|rutschwinkel|gleitwinkel|"},
     {"step1.t500_s", "|t500|"},
     {"height-after", "|height after|"},
 }};

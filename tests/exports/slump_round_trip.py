@@ -3,11 +3,12 @@
 
 usage: slump_round_trip.py PASTEFIT CARD... [--to lammps|liggghts|yade] [--strengths 0.3,1,2,4,10]
                            [--packings N] [--radius-mm R] [--ranks N] [--time-step S] [--both-steps]
-                           [--law epa|luding] [--adhesion-ratio X]
+                           [--law epa|luding] [--adhesion-ratio X] [--tilt]
 
 --strengths multiplies a card's attraction by each factor, for a series from weak to strong. Step 1 only, unless
 --both-steps, which adds the usual drop plate to a card without one. With --law a card's grains are soft and have
-elasto-plastic adhesion instead (`elasto_plastic.slump_card`), with the radius of --radius-mm.
+elasto-plastic adhesion instead (`elasto_plastic.slump_card`), with the radius of --radius-mm. With --tilt, the heap is a pat on
+a table that is tilted until it slides (LAMMPS only); its grains slide on the table and do not roll.
 
 Exit status 1 if a reading differs significantly, at a false alarm rate of one in a thousand comparisons (t-interval for the
 difference of two means, pooled variance; spreads below a millimetre count as one); 77 if the program is not installed.
@@ -17,6 +18,7 @@ import argparse
 import json
 import math
 import pathlib
+import re
 import statistics
 import subprocess
 import tempfile
@@ -47,6 +49,15 @@ def variant(card, factor, both_steps):
     return card
 
 
+def pat(card):
+    """A flat disc instead of the heap, on a table that is tilted."""
+    test = card["tests"][0]["test"]
+    test["mould"] = {"base_radius_m": 0.1, "top_radius_m": 0.1, "height_m": 0.05}
+    test["table_wall"] |= {"friction": 0.35, "rolling_friction": 0.5}
+    card["material"]["parameters"] |= {"table_friction": 0.35, "table_rolling_friction": 0.5}
+    test["tilt"] = {"rate_deg_s": 3, "slide_m": 0.005}
+
+
 def ours(options, file, packing):
     step = ["--time-step", str(options.time_step)] if options.time_step else []
     run = subprocess.run([options.program, "simulate", file, "--seed", str(packing), "--json", *step],
@@ -70,7 +81,10 @@ def theirs(options, file, packing, deck):
                            "--json"], capture_output=True, text=True)
     if read.returncode not in (0, 1):  # 1: the heap differs from the card's, whose attraction was changed here
         raise SystemExit(read.stderr)
-    return {name: row["read"] for name, row in json.loads(read.stdout)["readings"].items()}, wall
+    readings = {name: row["read"] for name, row in json.loads(read.stdout)["readings"].items()}
+    if options.tilt:
+        readings["tilt.slide_angle_deg"] = float(re.search(r"^slide angle (\S+) degrees$", run.stdout, re.M).group(1))
+    return readings, wall
 
 
 def compare(options, file, title, folder):
@@ -82,7 +96,7 @@ def compare(options, file, title, folder):
         walls.append(wall)
     worst = 0
     for reading in pairs[0][1]:
-        if reading.endswith("spilled_share"):
+        if reading.endswith("spilled_share") or reading not in pairs[0][0]:
             continue
         a, b = [p[0][reading] for p in pairs], [p[1][reading] for p in pairs]
         difference = statistics.mean(b) - statistics.mean(a)
@@ -105,6 +119,7 @@ def main():
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--time-step", type=float, help="of pastefit [s]; without it the default")
     parser.add_argument("--both-steps", action="store_true")
+    parser.add_argument("--tilt", action="store_true")
     parser.add_argument("--law", choices=elasto_plastic.EXPONENT)
     parser.add_argument("--adhesion-ratio", type=float, default=1.0)
     options = parser.parse_args()
@@ -124,6 +139,8 @@ def main():
                 elasto_plastic.slump_card(card, options.law, options.adhesion_ratio, 1e-3 * (options.radius_mm or 8))
             for factor in map(float, options.strengths.split(",")):
                 changed = variant(card, factor, options.both_steps)
+                if options.tilt:
+                    pat(changed)
                 file = folder / "card.json"
                 file.write_text(json.dumps(changed))
                 title = options.law or f"{source.stem}, {changed['material']['contact']['bridge']['c_n']:.3g}"

@@ -97,15 +97,19 @@ class Workbooks(Desk):
             with self.subTest(name):
                 page = run("template", name).stdout
                 heads = [html.unescape(head) for head in re.findall(r"<th>([^<]+)", page)]
-                values = ["a1", "hinged-plate", "2300", "65", "70", "68", "250", "255", "252", "110", "290", "5"]
-                table = self.folder / f"{name}.csv"
-                table.write_text(";".join(heads) + "\n" + ";".join(values) + "\n", encoding="utf-8")
-                result = run("new", self.folder / name, "--from", table)
-                self.assertEqual(result.returncode, 0, result.stderr)
-                self.assertNotIn("not used", result.stdout + result.stderr)
-                written = (self.folder / name / "lab.json").read_text()
-                for key in ("step1.slump_mm", "step1.spread_mm", "step2.height_mm", "step2.spread_mm", "step2.plateau_sag_mm"):
-                    self.assertIn(key, written)
+                rows = {"a1": (["a1", "hinged-plate", "2300", "65", "70", "68", "250", "255", "252", "110", "290", "5", ""],
+                               ("step1.slump_mm", "step1.spread_mm", "step2.height_mm", "step2.spread_mm", "step2.plateau_sag_mm")),
+                        "pat": (["pat", "200/200/50", "2300", "1", "1", "1", "204", "204", "204", "", "", "", "31"],
+                                ("step1.spread_mm", "tilt.slide_angle_deg"))}
+                for sample, (values, keys) in rows.items():
+                    table = self.folder / f"{name}-{sample}.csv"
+                    table.write_text(";".join(heads) + "\n" + ";".join(values) + "\n", encoding="utf-8")
+                    result = run("new", self.folder / f"{name}-{sample}", "--from", table)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    self.assertNotIn("not used", result.stdout + result.stderr)
+                    written = (self.folder / f"{name}-{sample}" / "lab.json").read_text()
+                    for key in keys:
+                        self.assertIn(key, written)
 
 
 if __name__ == "__main__":

@@ -30,3 +30,8 @@ TEST_CASE("a log that is cut short has not ended, and its first error is told") 
   CHECK(log.ranks == 0);
   CHECK(read_lammps_log("").copies == 0);
 }
+
+TEST_CASE("a log has a slide angle where the deck has printed one, and not where it echoes the command") {
+  CHECK(read_lammps_log("slide angle 18.5 degrees\n").slide_angle_deg == 18.5);
+  CHECK_FALSE(read_lammps_log("print        \"slide angle $(-v_tilt*180/PI) degrees\"\n").slide_angle_deg);
+}
