@@ -17,7 +17,7 @@ import unittest
 PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 PAGES = {page.name: page.read_text() for page in sorted((SOURCE / "calibrate/manual").glob("*.md"))}
 BLOCK = re.compile(r"^( *)```sh\n(.*?)^\1```$", re.M | re.S)
-OTHER_PROGRAMS = ("cd ", "(cd ", "./lmp_pastefit", "pastefit read ")  # of a deck that has run elsewhere
+OTHER_PROGRAMS = ("cd ", "(cd ", "./lmp_pastefit", "pastefit read ", "pastefit kpi ")  # of a deck that has run elsewhere
 PLACEHOLDER = re.compile(r"\b[A-Z]{3,}\b")
 
 

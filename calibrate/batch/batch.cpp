@@ -54,8 +54,10 @@ std::optional<Card> card_of_batch(const BatchStudy& one) {
   if (!fs::is_regular_file(file, error)) return std::nullopt;
   auto card = read_card(file);
   if (!card.ok() || card.value().provenance.study_hash != one.study.hash) return std::nullopt;
-  const auto hash_of = [](const StudyTest& test) { return test.lab.hash; };
-  if (!std::ranges::equal(card.value().tests, one.study.tests, {}, &CardTest::lab_hash, hash_of)) return std::nullopt;
+  const auto same = [](const CardTest& test, const StudyTest& own) { return test.lab_hash == own.lab.hash; };
+  const auto& tests = card.value().tests;
+  const auto& own_tests = one.study.tests;
+  if (!std::equal(tests.begin(), tests.end(), own_tests.begin(), own_tests.end(), same)) return std::nullopt;
   return std::move(card).value();
 }
 

@@ -44,7 +44,7 @@ struct CheckOptions {
 enum class CheckVerdict { agrees, disagrees, not_checked };
 std::string_view name_of(CheckVerdict verdict);  ///< "agrees", "disagrees", "not checked"
 
-/// Whether the simulations repeat the card's bit for bit.
+/// Whether the simulations repeat the card's bit for bit; of several tests the last of these counts.
 enum class SameBits {
   same,            ///< identical
   not_comparable,  ///< the card has no single runs

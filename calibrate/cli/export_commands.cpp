@@ -66,6 +66,11 @@ int export_to_folder(const ExportOptions& options) {
   const auto card = read_card(options.card);
   append(faults, card);
   append(faults, output_folder_faults("--out", options.out));
+  std::error_code error;
+  if (!options.application.empty() &&
+      fs::equivalent(options.out, fs::path(options.application).parent_path() / ".", error))
+    faults.push_back({"--out " + options.out,
+                      "is the folder of the application, whose surfaces the export would replace", "another folder"});
   if (!exporter.ok() || !card.ok()) refuse(faults);
   const auto written = options.materials ? files_of_materials(exporter.value(), options)
                                          : files_of(card.value(), exporter.value(), options);
@@ -267,7 +272,9 @@ Command add_export(CLI::App& verb) {
   verb.add_option("--application", options->application,
                   "machine in which to simulate the material, in place of the test: chute, hopper, mixer, or a file of "
                   "your own")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(CLI::Validator(
+          [](const std::string& text) { return text.empty() ? "is empty: give a name or a file" : ""; }, ""));
   verb.add_flag("--unconfirmed", options->unconfirmed, "export an unconfirmed card, marked in every file");
   verb.add_flag("--materials", options->materials,
                 "every material that fits the readings, each in a folder of its own; CARD in the folder of its "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -28,9 +29,10 @@ void describe_vector(Fields& fields, const Key& key, Vec3& target, const Range& 
 /// A direction must have a length.
 template <class Fields>
 void describe_direction(Fields& fields, const Key& key, Vec3& target, const Range& range) {
+  target = {0, 0, 1};
   describe_vector(fields, key, target, range);
   if constexpr (Fields::reads)
-    if (fields.has(key) && norm(target) == 0)
+    if (norm(target) == 0)
       fields.fault(key.name, "has no direction", "three numbers that are not all 0, e.g. [0, 0, -1]");
 }
 
@@ -103,8 +105,9 @@ void describe_application(auto& fields, Application& application, auto with_part
 void complete_part(ObjectReader& reader, MachinePart& part, const std::filesystem::path& folder) {
   const std::string key = "parts." + part.name;
   const auto letter = [](char one) { return std::isalnum(static_cast<unsigned char>(one)) || one == '_'; };
-  if (part.name.empty() || !std::ranges::all_of(part.name, letter))
-    reader.fault(key, "is not a name of a part", "letters, digits and _");
+  constexpr std::size_t longest = 64;
+  if (part.name.empty() || part.name.size() > longest || !std::ranges::all_of(part.name, letter))
+    reader.fault(key, "is not a name of a part", "at most 64 letters, digits and _");
   if (part.slide && part.rotation) reader.fault(key, "slides and rotates", "one motion for each part");
   if (part.rotation && part.rotation->revolutions_per_min == 0)
     reader.fault(key + ".rotation.revolutions_per_min", "is 0", "leave out the rotation");
@@ -116,10 +119,23 @@ void complete_part(ObjectReader& reader, MachinePart& part, const std::filesyste
       reader.fault(key + ".file", in_quotes(part.file) + " " + fault.what, fault.remedy);
 }
 
+bool is_beyond(const Vec3& at, const OrientedPlane& plane) {
+  return dot(at - plane.point_m, plane.normal) > 0;
+}
+
+/// The feed belongs inside the machine and above its floor.
+void check_planes(ObjectReader& reader, const Application& application) {
+  const Vec3& feed = application.feed.centre_m;
+  if (application.outlet && is_beyond(feed, *application.outlet))
+    reader.fault("outlet.normal", "puts the feed beyond the outlet", "the opposite direction, out of the machine");
+  if (application.depth && !is_beyond(feed, application.depth->floor))
+    reader.fault("flow_depth.normal", "puts the feed below the floor", "the opposite direction, away from the floor");
+}
+
 void check_times(ObjectReader& reader, const Application& application) {
   const Feed& feed = application.feed;
   if (application.parts.empty()) reader.fault("parts", "is empty", "one part at least");
-  double end = feed.mass_kg / feed.rate_kg_s;
+  double end = feed.mass_kg / feed.rate_kg_s + feed.radius_m / norm(feed.velocity_m_s);
   for (const MachinePart& part : application.parts) {
     if (part.slide) end = std::max(end, part.slide->until_s());
     if (part.rotation) end = std::max(end, part.rotation->from_s);
@@ -132,10 +148,11 @@ void check_times(ObjectReader& reader, const Application& application) {
 
 /// The file itself, or the shipped one of this name.
 std::filesystem::path application_file(const std::filesystem::path& file) {
-  if (file.has_extension() || std::filesystem::exists(file)) return file;
+  std::error_code error;
+  if (file.has_extension() || std::filesystem::is_regular_file(file, error)) return file;
   for (const std::filesystem::path& folder : data_folders()) {
     const auto shipped = (folder / "applications" / file).concat(".json");
-    if (std::filesystem::exists(shipped)) return shipped;
+    if (std::filesystem::is_regular_file(shipped, error)) return shipped;
   }
   return file;
 }
@@ -163,7 +180,10 @@ std::pair<Vec3, Vec3> Application::bounds() const {
       for (const Vec3& corner : triangle) {
         include(corner, 0);
         if (part.slide) include(corner + (part.slide->until_s() - part.slide->from_s) * part.slide->velocity_m_s, 0);
-        if (part.rotation) include(part.rotation->point_m, norm(corner - part.rotation->point_m));
+        if (!part.rotation) continue;
+        const Vec3 axis = (1 / norm(part.rotation->axis)) * part.rotation->axis, from = corner - part.rotation->point_m;
+        const Vec3 along = dot(from, axis) * axis;  // the circle of this corner is within a sphere about its centre
+        include(part.rotation->point_m + along, norm(from - along));
       }
   return {low, high};
 }
@@ -179,11 +199,27 @@ Result<Application> read_application(const std::filesystem::path& asked, const W
       reader.known("format");
       describe_application(reader, application, [&](MachinePart& part) { part.contact = usual; });
       for (MachinePart& part : application.parts) complete_part(reader, part, file.parent_path());
+      if (faults.empty()) check_planes(reader, application);
       if (faults.empty()) check_times(reader, application);
     }
     if (!faults.empty()) return faults;
     return application;
   });
+}
+
+double fastest_m_s(const Application& application) {
+  double fastest = norm(application.feed.velocity_m_s);
+  for (const MachinePart& part : application.parts) {
+    if (part.slide) fastest = std::max(fastest, norm(part.slide->velocity_m_s));
+    if (!part.rotation) continue;
+    const double turns_s = std::fabs(part.rotation->revolutions_per_min) / 60;
+    for (const Triangle& triangle : part.triangles)
+      for (const Vec3& corner : triangle) {
+        const Vec3 around = cross(part.rotation->axis, corner - part.rotation->point_m);
+        fastest = std::max(fastest, 2 * std::numbers::pi * turns_s * norm(around) / norm(part.rotation->axis));
+      }
+  }
+  return fastest;
 }
 
 Faults unsuitable_grains(const Application& application, double largest_radius, double density) {
@@ -203,6 +239,10 @@ Faults unsuitable_grains(const Application& application, double largest_radius, 
         {"feed.rate_kg_s",
          "is " + shown(feed.rate_kg_s) + " kg/s, more than passes the disc at this velocity, " + plain(most) + " kg/s",
          "a larger radius, a higher velocity, or a lower rate"});
+  constexpr double fewest = 10, most_grains = 5e6;
+  const double grains = feed.mass_kg / (4.0 / 3 * std::numbers::pi * std::pow(largest_radius, 3) * density);
+  if (grains < fewest || grains > most_grains)
+    faults.push_back({"feed.mass_kg", "is " + plain(grains) + " of the largest grains", "ten to five million of them"});
   return faults;
 }
 

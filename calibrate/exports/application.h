@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibrate/base/object_schema.h"
@@ -78,8 +79,11 @@ struct Application {
 /// parts whose properties the file does not give. Errors: every fault, with its place.
 Result<Application> read_application(const std::filesystem::path& file, const WallContact& usual);
 
-/// Faults of an application with grains of this largest radius and density: a feed too narrow for the grains, or for
-/// its rate.
+/// Largest velocity of the feed and of the parts' corners.
+double fastest_m_s(const Application& application);
+
+/// Faults of an application with grains of this largest radius and density: a feed too narrow for the grains or for its
+/// rate, and too few or too many grains.
 Faults unsuitable_grains(const Application& application, double largest_radius_m, double grain_density_kg_m3);
 
 ObjectSchema::Json application_schema();

@@ -32,10 +32,13 @@ std::vector<ExportWall> ExportScene::walls() const {
 namespace {
 
 /// Puts the machine of a file in place of the test. Its surfaces are like the table unless the file says otherwise.
-/// Errors: every fault of the file; it does not suit the grains.
+/// Errors: no slump test; every fault of the file; it does not suit the grains.
 Faults put_into_application(ExportScene& scene, const std::string& file) {
-  const auto walls = scene.walls();
-  auto read = read_application(file, walls.empty() ? WallContact{} : walls.back().contact);
+  if (!scene.slump())
+    return {{"--application",
+             "needs a slump test of the card, whose packing has the sizes and the density of the grains",
+             "--test NAME, or a card with a slump test"}};
+  auto read = read_application(file, scene.slump()->table_wall);
   if (!read.ok()) return read.faults();
   const double largest = std::max(std::ranges::max(scene.sizes.radii_m), scene.grains().largest_m);
   if (Faults faults = unsuitable_grains(read.value(), largest, scene.grain_density_kg_m3); !faults.empty())
@@ -191,7 +194,9 @@ std::string bias_text(const Export& written) {
 /// Content of `kExportNotes` below the title.
 std::string export_notes(const Export& written, const Exporter& exporter, const Card& card, const CardTest& test,
                          const ExportRequest& request) {
-  std::string out = std::string(exporter.meaning) + "\n\n" + lines_of(choice_text(card, test));
+  const std::string meaning = request.application.empty() ? std::string(exporter.meaning)
+                                                          : "deck of a machine for " + std::string(exporter.name);
+  std::string out = meaning + "\n\n" + lines_of(choice_text(card, test));
   out += written.notes.empty() ? "All of the card's contact laws are exported.\n" : "What is lost or changed:\n";
   for (const auto& note : written.notes) out += "- " + note + "\n";
   if (!written.instructions.empty()) out += "\nTo run it:\n" + written.instructions;

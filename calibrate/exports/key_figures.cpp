@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/statistics.h"
@@ -28,8 +29,10 @@ Result<FigureTable> read_table(const fs::path& file) {
   if (!text.ok()) return text.faults();
   const auto lines = csv_lines(text.value(), ',');
   FigureTable table;
-  if (lines.empty()) return Fault{file.string(), "is empty", remedy};
+  if (lines.empty() || text.value().empty()) return Fault{file.string(), "is empty", remedy};
   const auto& names = lines[0].cells;
+  if (std::set(names.begin(), names.end()).size() != names.size())
+    return Fault{file.string(), "has a column twice", remedy};
   for (std::size_t n = 1; n < lines.size(); ++n) {
     if (lines[n].cells == std::vector<std::string>{""}) continue;  // at the end of the file
     const std::string place = file.string() + ", line " + std::to_string(lines[n].number);
@@ -73,13 +76,14 @@ Figures figures_of(FigureTable& table) {
   for (std::size_t n = 0; n < out.size(); ++n) out[n] -= table["inside_kg"][n];
   const double fed = table["fed_kg"].back(), left = out.back();
   constexpr double least_share = 0.05;  // less is no discharge, but what splashes
-  const bool discharges = left > least_share * fed;
+  const bool discharges = left > least_share * fed && !table.contains("lost_kg");
   const std::size_t first = discharges ? first_row(out, 0.2 * left) : first_row(time, 0.5 * time.back());
   const std::size_t last = discharges ? std::max(first, first_row(out, 0.8 * left)) : time.size() - 1;
-  Figures figures{{"fed_kg", fed}, {"discharged_kg", left}, {"remaining_kg", fed - left}};
+  const char* const gone = table.contains("lost_kg") ? "lost_kg" : "discharged_kg";
+  Figures figures{{"fed_kg", fed}, {gone, left}, {"remaining_kg", fed - left}};
   if (discharges && time[last] > time[first])
     figures.emplace_back("discharge_rate_kg_s", (out[last] - out[first]) / (time[last] - time[first]));
-  if (left >= 0.5 * fed) figures.emplace_back("time_to_50_percent_s", time[first_row(out, 0.5 * fed)]);
+  if (discharges && left >= 0.5 * fed) figures.emplace_back("time_to_50_percent_s", time[first_row(out, 0.5 * fed)]);
   for (const auto& entry : table) {
     const std::string& name = entry.first;
     const FigureColumn& column = entry.second;
@@ -96,13 +100,16 @@ Figures figures_of(FigureTable& table) {
   return figures;
 }
 
-/// Folders with figures: the folder itself, or its subfolders in the order of their names.
+/// Folders of an application: the folder itself, or its subfolders in the order of their names.
 std::vector<fs::path> run_folders(const fs::path& folder) {
-  if (fs::exists(folder / kFigureFile)) return {folder};
-  std::vector<fs::path> found;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (fs::exists(entry.path() / kFigureFile)) found.push_back(entry.path());
+  const auto is_run = [&](const fs::path& one) {
+    return fs::exists(one / kFigureFile, error) || fs::exists(one / "in.application", error);
+  };
+  if (is_run(folder)) return {folder};
+  std::vector<fs::path> found;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (is_run(entry->path())) found.push_back(entry->path());
   std::ranges::sort(found);
   return found;
 }
@@ -127,6 +134,10 @@ Result<KeyFigures> read_key_figures(const fs::path& folder) {
   Faults faults;
   std::vector<Figures> all;
   for (const fs::path& run : run_folders(folder)) {
+    if (std::error_code error; !fs::exists(run / kFigureFile, error)) {
+      faults.push_back({run.string(), "has not been run", "liggghts -in in.application there"});
+      continue;
+    }
     auto table = read_table(run / kFigureFile);
     if (!table.ok()) faults.insert(faults.end(), table.faults().begin(), table.faults().end());
     if (!table.ok()) continue;

@@ -34,10 +34,11 @@ struct KeyFigures {
 ///     discharge_rate_kg_s                   60 % of the discharged mass over the time that it takes
 ///     time_to_50_percent_s                  until half of the fed mass has left, from the last start of a motion
 ///     flow_depth_mm                         mean
-///     PART_force_mean_n, PART_force_max_n   size of the force of the grains on a part: mean, and largest of all
-///     samples PART_torque_mean_n_m                  of the grains on a part, about its axis
+///     PART_force_mean_n, PART_force_max_n   size of the force of the grains on a part, mean and largest
+///     PART_torque_mean_n_m                  of the grains on a part, about its axis
 ///
-/// Errors: no figures; a run that has not ended; numbers that are not finite.
+/// A machine without an outlet has lost_kg, the mass that escaped, in place of what concerns the discharge.
+/// Errors: no figures; a run that has not begun or not ended; numbers that are not finite; a repeated column.
 Result<KeyFigures> read_key_figures(const std::filesystem::path& folder);
 
 }  // namespace pastefit

@@ -182,6 +182,30 @@ Faults beyond_limits(const ExportScene& scene) {
   return faults;
 }
 
+/// Size of the simulation. LIGGGHTS makes about 2 million particle-steps per second on a core (tests/results/speed.csv:
+/// 3.1 with sjkr, 1.6 with a capillary bridge).
+std::string effort_in_words(const Application& application, const ExportScene& scene, double time_step_s) {
+  constexpr double steps_per_core_s = 2e6;
+  double volume = 0;
+  for (const double radius : scene.packing.radii) volume += 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
+  const double mean_mass = volume / static_cast<double>(scene.packing.radii.size()) * scene.grain_density_kg_m3;
+  const double grains = application.feed.mass_kg / mean_mass, steps = application.duration_s / time_step_s;
+  return plain(grains, 2) + " grains, " + plain(steps, 2) + " time steps: at most " +
+         plain(grains * steps / steps_per_core_s / 60, 2) + " minutes" + " on one core, less if grains leave early.";
+}
+
+/// Grains would pass through parts that move too far in a time step, or that they meet too fast.
+Faults too_fast(const ExportScene& scene, double time_step_s) {
+  if (!scene.application) return {};
+  constexpr double largest_share = 0.25;  // of the smallest radius
+  const double most = largest_share * std::ranges::min(scene.sizes.radii_m) / time_step_s;
+  const double fastest = fastest_m_s(*scene.application);
+  if (fastest <= most) return {};
+  return {{"--application",
+           "has a velocity of " + plain(fastest) + " m/s, by which grains could pass through a surface",
+           "at most " + plain(most) + " m/s for these grains"}};
+}
+
 /// Study settings that avoid a substitute law; empty if the deck has the card's law.
 std::string own_law(const ContactModel& card, const Written& written) {
   if (written.edinburgh)
@@ -217,11 +241,13 @@ Result<Export> export_liggghts(const ExportScene& scene) {
   for (Fault& fault : beyond_limits(scene)) faults.push_back(std::move(fault));
   if (!faults.empty()) return faults;
   const Written written = law_for_liggghts(scene);
+  if (faults = too_fast(scene, written.time_step_s); !faults.empty()) return faults;
   const Models models = models_of(written.contact, written.bridge());
   Export out;
   out.notes = liggghts_losses(scene, written);
   if (scene.slump() && scene.slump()->drop && !scene.application)
     out.notes.push_back("The deck simulates step 1 only, without the drop of the plate (step 2).");
+  if (scene.application) out.notes.push_back(effort_in_words(*scene.application, scene, written.time_step_s));
   if (scene.application)
     out.files = liggghts_application(scene, written, models, out.notes);
   else if (scene.slump())

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -67,6 +68,7 @@ FigureColumns figure_columns(const Application& application) {
   columns.add("end_s", format("%.9g", application.duration_s - application.start_s()));
   columns.add("fed_kg", "f_feed[2]");
   columns.add("inside_kg", "v_inside");
+  if (!application.outlet) columns.add("lost_kg", "f_feed[2]-v_inside");  // nothing leaves it but what escapes
   std::string before = inside;
   if (application.depth) before += depth_formula(*application.depth, columns);
   for (const MachinePart& part : application.parts) {
@@ -198,7 +200,7 @@ std::vector<ExportFile> liggghts_application(const ExportScene& scene, const Wri
        {"thermo", every(0.1)},
        {"dumps", "# dump       frames all custom " + every(0.05) + " frame_*.dump id type x y z radius vx vy vz"},
        {"runs", runs(application, written.time_step_s)}});
-  std::vector<ExportFile> files{{"in.application", deck}, {"feed.stl", feed_stl(application.feed)}};
+  std::vector<ExportFile> files{{"in.application", deck}, {"feed-disc.stl", feed_stl(application.feed)}};
   for (const MachinePart& part : application.parts)
     files.push_back({part.name + ".stl", stl_text(part.name, part.triangles)});
   return files;

@@ -45,8 +45,9 @@ std::vector<Leg> liggghts_legs(const ExportScene& scene, const Written& written)
 
 std::string liggghts_begin(const ExportScene& scene, const std::string& what, const std::vector<std::string>& notes) {
   const auto comment = [](const std::string& note) { return deck_comment("- " + note); };
+  const std::string line = deck_comment(what);
   return filled_in("exports/texts/liggghts_header.in", {{"title", deck_comment(scene.title)},
-                                                        {"what", what},
+                                                        {"what", line.substr(2, line.size() - 3)},
                                                         {"program", program_identity()},
                                                         {"notes", listed(notes, comment, "")},
                                                         {"atom_modify", atom_modify(scene.contact())}});

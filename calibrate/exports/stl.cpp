@@ -1,7 +1,11 @@
 #include "calibrate/exports/stl.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
+#include <locale>
 #include <sstream>
 
 #include "calibrate/base/input_file.h"
@@ -35,22 +39,30 @@ std::vector<Vec3> corners_of_binary(const std::string& bytes) {
   return corners;
 }
 
+/// A corner that cannot be read is infinite.
 std::vector<Vec3> corners_of_ascii(const std::string& text) {
   std::vector<Vec3> corners;
   std::istringstream words(text);
+  words.imbue(std::locale::classic());
   for (std::string word; words >> word;) {
     if (small_letters(word) != "vertex") continue;
     Vec3 at;
-    if (words >> at.x >> at.y >> at.z) corners.push_back(at);
+    if (!(words >> at.x >> at.y >> at.z)) at.x = std::numeric_limits<double>::infinity();
+    corners.push_back(at);
   }
   return corners;
+}
+
+bool is_possible(const Vec3& at) {
+  constexpr double farthest_m = 1e4;  // NaN is not below it
+  return std::fabs(at.x) < farthest_m && std::fabs(at.y) < farthest_m && std::fabs(at.z) < farthest_m;
 }
 
 }  // namespace
 
 Result<std::vector<Triangle>> read_stl(const std::filesystem::path& file, double metres_per_unit) {
   constexpr std::string_view remedy = "an STL file, ASCII or binary";
-  const auto content = read_input(file, {256u << 20, remedy, ".stl"});
+  const auto content = read_input(file, {64u << 20, remedy, ".stl"});
   if (!content.ok()) return content.faults();
   const std::string& bytes = content.value();
   const std::vector<Vec3> corners = is_binary(bytes) ? corners_of_binary(bytes) : corners_of_ascii(bytes);
@@ -58,9 +70,11 @@ Result<std::vector<Triangle>> read_stl(const std::filesystem::path& file, double
   for (std::size_t n = 0; n + 2 < corners.size(); n += 3) {
     const Triangle one{metres_per_unit * corners[n], metres_per_unit * corners[n + 1],
                        metres_per_unit * corners[n + 2]};
-    const double area = norm(cross(one[1] - one[0], one[2] - one[0]));
-    if (!std::isfinite(area)) return Fault{file.string(), "has a coordinate that is not finite", std::string(remedy)};
-    if (area > 0) triangles.push_back(one);
+    if (!std::ranges::all_of(one, is_possible))
+      return Fault{file.string(),
+                   "has a corner that is no point within 10 km, in triangle " + std::to_string(n / 3 + 1),
+                   std::string(remedy)};
+    if (norm(cross(one[1] - one[0], one[2] - one[0])) > 0) triangles.push_back(one);
   }
   if (triangles.empty() || corners.size() % 3 != 0)
     return Fault{file.string(), triangles.empty() ? "has no triangle" : "ends within a triangle", std::string(remedy)};

@@ -25,10 +25,12 @@ struct Moments {
 };
 Moments moments_of(const std::vector<UnitPoint>& sample);
 
+inline constexpr int further_measurements = 5;
+
 /// Predicted effect of further measurements of one reading on the posterior.
 struct MeasurementGain {
   std::string reading;
-  int measurements = 5;   ///< their number
+  int measurements = further_measurements;
   double deviation = 0;   ///< standard deviation of one, in the reading's unit
   std::string parameter;  ///< parameter whose standard deviation decreases most
   double narrowing = 1;   ///< its standard deviation afterwards over that before

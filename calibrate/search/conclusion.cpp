@@ -9,6 +9,7 @@ namespace pastefit {
 
 std::string_view name_of(CalibrationStatus status) {
   constexpr std::array<std::string_view, 5> names{"confirmed", "unconfirmed", "out_of_reach", "stopped", "failed"};
+  static_assert(static_cast<std::size_t>(CalibrationStatus::failed) + 1 == names.size());
   return names[static_cast<std::size_t>(status)];
 }
 

@@ -240,7 +240,7 @@ std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const d
       one.highest = std::max(one.highest, single.readings[k]);
       heed(single);
     }
-    std::ranges::for_each(coarse, heed);
+    for (const Response& of_coarse : coarse) heed(of_coarse);
     if (one.lowest > one.highest) one = Reach{};
     reach.push_back(one);
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "core/laws/table.h"
@@ -54,10 +55,10 @@ constexpr std::array<PlausibleRange, 2> plausible{{
      "these grains hardly roll; it stands in for something that the model lacks, their shape for instance"},
 }};
 
-/// The place of a parameter in a list of values.
+/// The place of a parameter in a list of values. Throws for a name that there is not, which is a bug in this file.
 std::size_t parameter_at(std::string_view name) {
   const auto kind = std::ranges::find(kinds, name, &ParameterKind::name);
-  assert(kind != kinds.end());
+  if (kind == kinds.end()) throw std::logic_error("no parameter " + std::string(name));
   return static_cast<std::size_t>(kind - kinds.begin());
 }
 

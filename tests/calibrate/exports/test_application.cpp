@@ -105,7 +105,12 @@ TEST_CASE("an STL file is read alike in ASCII and in binary, without triangles t
   CHECK(stl_text("same", ascii.value()) == stl_text("same", binary.value()));
   CHECK_FALSE(read_stl(folder.write("c.stl", "solid nothing\nendsolid nothing\n"), 1).ok());
   CHECK_FALSE(read_stl(folder.write("d.stl", kSquare.substr(0, kSquare.find("vertex 200 200"))), 1).ok());
-  CHECK_FALSE(read_stl(folder.write("e.stl", with(kSquare, "200 200 0", "nan 200 0")), 1).ok());
+  for (const char* corner : {"nan 200 0", "1,5 200 0", "1e400 200 0", "1e30 200 0"}) {
+    INFO(corner);
+    CHECK_FALSE(read_stl(folder.write("e.stl", with(kSquare, "200 200 0", corner)), 1).ok());
+    const std::string first = with(kSquare, "-200 -200 0", corner);  // what follows it is not dropped in silence
+    CHECK_FALSE(read_stl(folder.write("f.stl", first + kSquare), 1).ok());
+  }
   CHECK_FALSE(read_stl(folder.path() / "missing.stl", 1).ok());
 }
 
@@ -132,6 +137,8 @@ TEST_CASE("every error of a machine is named with its place") {
   CHECK(fault("\"floor\":", "\"my floor\":").find("parts.my floor: is not a name of a part") != std::string::npos);
   CHECK(fault("[0, 0, -1]", "[0, 0, 0]").find("feed.velocity_m_s: has no direction") != std::string::npos);
   CHECK(fault("\"duration_s\": 6", "\"duration_s\": 4").find("duration_s: is 4 s") != std::string::npos);
+  CHECK(fault("\"normal\": [0, 0, -2]", "\"normal\": [0, 0, 2]").find("outlet.normal: puts the feed") !=
+        std::string::npos);
   CHECK(fault("-30", "0").find("parts.blade.rotation.revolutions_per_min: is 0") != std::string::npos);
   CHECK(fault("\"friction\": 0.25", "\"friction\": -1").find("parts.floor.friction") != std::string::npos);
   CHECK(fault("\"unit\": \"m\"", "\"units\": \"m\"").find("parts.gate.units: unknown key") != std::string::npos);
@@ -144,6 +151,11 @@ TEST_CASE("every error of a machine is named with its place") {
   CHECK(unsuitable_grains(read, 0.02, 3000).empty());
   CHECK(unsuitable_grains(read, 0.03, 3000).at(0).where == "feed.radius_mm");
   CHECK(unsuitable_grains(read, 0.02, 1000).at(0).where == "feed.rate_kg_s");
+  CHECK(unsuitable_grains(read, 1e-5, 3000).at(0).where == "feed.mass_kg");
+  // 30 revolutions per minute, 0.2 sqrt(2) m from the axis; the gate has 0.5 m/s and the feed 1 m/s.
+  CHECK(fastest_m_s(read) == Approx(1));
+  CHECK(fastest_m_s(machine(folder, with(kMachine, "-30", "-300")).value()) ==
+        Approx(10 * 3.14159265 * 0.2 * std::sqrt(2.0)));
 }
 
 TEST_CASE("the deck of a machine moves its parts in order, and counts time from the last start of a motion") {
@@ -169,6 +181,30 @@ TEST_CASE("the deck of a machine moves its parts in order, and counts time from 
   at("variable     time_s equal step*dt-(3)");
   at("variable     end_s equal 3");
   CHECK(written.value().heap.empty());
+  one.application = machine(folder, with(kMachine, "-30", "-9000")).value();
+  CHECK_FALSE(export_liggghts(one).ok());
+}
+
+TEST_CASE("a title cannot add a command to the deck of a machine, nor a part take the place of its feed") {
+  const test::Folder folder;
+  ExportScene one = scene(slump_of_paste());
+  std::string hostile = with(kMachine, "\"Machine\"", R"("Machine\nshell touch x\n#")");
+  hostile = with(hostile, "\"floor\":", "\"feed\":");
+  one.application = machine(folder, hostile).value();
+  const auto written = export_liggghts(one);
+  REQUIRE(written.ok());
+  CHECK(written.value().files.at(0).content.find("\nshell") == std::string::npos);
+  std::vector<std::string> names;
+  for (const ExportFile& file : written.value().files) names.push_back(file.name);
+  std::ranges::sort(names);
+  CHECK(std::ranges::adjacent_find(names) == names.end());
+}
+
+TEST_CASE("a rotating part sweeps the circle about its axis, wherever the point of the axis lies") {
+  const test::Folder folder;
+  const auto far = machine(folder, with(kMachine, "\"point_mm\": [0, 0, 100]", "\"point_mm\": [0, 0, 100000]"));
+  REQUIRE(far.ok());
+  CHECK(far.value().bounds().second.z == Approx(0.6));  // of the feed
 }
 
 TEST_CASE("key figures are those of a run whose figures are known in closed form") {
@@ -216,6 +252,12 @@ TEST_CASE("figures of a run that has not ended, or of none, are refused") {
   CHECK(early.faults().at(0).what == "ends at 2.99 s of 5 s");
   folder.write("figures.csv", with(all, "\n3,5,8", "\n3,5,nan"));
   CHECK_FALSE(read_key_figures(folder.path()).ok());
+  folder.write("figures.csv", with(all, "end_s,fed", "time_s,fed"));
+  CHECK(read_key_figures(folder.path()).faults().at(0).what == "has a column twice");
+  const test::Folder several;
+  std::filesystem::create_directory(several.path() / "material-1");
+  several.write("material-1/in.application", "");
+  CHECK(read_key_figures(several.path()).faults().at(0).what == "has not been run");
   folder.write("figures.csv", "");
   CHECK_FALSE(read_key_figures(folder.path()).ok());
 }
