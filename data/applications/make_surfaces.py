@@ -61,7 +61,7 @@ def blade():
 
 if __name__ == "__main__":
     write("chute", chute())
-    write("hopper", ring(70, 0, 200, 260) + ring(200, 260, 200, 700))
-    write("hopper_gate", square(90, -2))
+    write("hopper", ring(100, 0, 200, 260) + ring(200, 260, 200, 700))
+    write("hopper_gate", square(120, -2))
     write("mixer_vessel", ring(200, 0, 200, 350) + square(210, 0))
     write("mixer_blade", blade())

@@ -75,6 +75,16 @@ class ShippedFiles(Desk):
             self.assertEqual(answer, json.loads((out / "outcome.json").read_text()))
         self.each(shipped("lab") + shipped("apparatus"), look)
 
+    def test_applications(self):
+        card = next(file for file in shipped("cards") if file.stem == "concrete-mix-79")
+
+        def look(application, out):
+            self.answers("export", "--unconfirmed", card, "--to", "liggghts", "--application", application.stem, "--out", out)
+            result = run("kpi", out)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("has not been run", result.stderr)
+        self.each(shipped("applications"), look)
+
     def test_starting_files(self):
         help_text = " ".join(run("template", "--help").stdout.split())  # as lines are broken
         names = re.search(r"which one: (\w[\w-]*(?:, \w[\w-]*)*)", help_text)[1].split(", ")
