@@ -74,7 +74,7 @@ Figures figures_of(FigureTable& table) {
   const FigureColumn& time = table["time_s"];
   FigureColumn out = table["fed_kg"];
   for (std::size_t n = 0; n < out.size(); ++n) out[n] -= table["inside_kg"][n];
-  const double fed = table["fed_kg"].back(), left = out.back();
+  const double fed = table["fed_kg"].back(), left = std::fabs(out.back()) < 1e-9 * fed ? 0 : out.back();
   constexpr double least_share = 0.05;  // less is no discharge, but what splashes
   const bool discharges = left > least_share * fed && !table.contains("lost_kg");
   const std::size_t first = discharges ? first_row(out, 0.2 * left) : first_row(time, 0.5 * time.back());
