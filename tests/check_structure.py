@@ -10,7 +10,7 @@ import sys
 
 # What each count may be at most. Lower a number when the tree shrinks; one that has to grow wants a reason in its commit.
 MOST = {
-    "lines of C++ in calibrate": 36975,
+    "lines of C++ in calibrate": 36977,
     "files of core and calibrate": 405,
     "of them below 40 lines": 49,
     "files that start or wait for threads": 2,

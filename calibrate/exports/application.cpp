@@ -113,10 +113,12 @@ void complete_part(ObjectReader& reader, MachinePart& part, const std::filesyste
     reader.fault(key + ".rotation.revolutions_per_min", "is 0", "leave out the rotation");
   if (part.file.empty()) return;
   auto triangles = read_stl(folder / part.file, part.in_metres ? 1 : 1 / mm);
-  if (triangles.ok()) part.triangles = std::move(triangles).value();
-  if (!triangles.ok())
-    for (const Fault& fault : triangles.faults())
-      reader.fault(key + ".file", in_quotes(part.file) + " " + fault.what, fault.remedy);
+  if (triangles.ok()) {
+    part.triangles = std::move(triangles).value();
+    return;
+  }
+  for (const Fault& fault : triangles.faults())
+    reader.fault(key + ".file", in_quotes(part.file) + " " + fault.what, fault.remedy);
 }
 
 bool is_beyond(const Vec3& at, const OrientedPlane& plane) {
@@ -151,7 +153,7 @@ std::filesystem::path application_file(const std::filesystem::path& file) {
   std::error_code error;
   if (file.has_extension() || std::filesystem::is_regular_file(file, error)) return file;
   for (const std::filesystem::path& folder : data_folders()) {
-    const auto shipped = (folder / "applications" / file).concat(".json");
+    auto shipped = (folder / "applications" / file).concat(".json");
     if (std::filesystem::is_regular_file(shipped, error)) return shipped;
   }
   return file;
