@@ -6,6 +6,7 @@ usage: test_shipped_files.py PROGRAM SOURCE_DIR [unittest options]
 
 import json
 import re
+import shutil
 import sys
 import unittest
 
@@ -84,6 +85,23 @@ class ShippedFiles(Desk):
             self.assertEqual(result.returncode, 2)
             self.assertIn("has not been run", result.stderr)
         self.each(shipped("applications"), look)
+
+    def test_an_application_is_not_replaced_by_its_own_export(self):
+        card = next(file for file in shipped("cards") if file.stem == "concrete-mix-79")
+        for file in (SOURCE / "data/applications").glob("chute.*"):
+            shutil.copy(file, self.folder)
+        (self.folder / "hopper").mkdir()  # a folder does not hide the machine of its name
+        before = (self.folder / "chute.stl").read_text()
+        common = ("export", "--unconfirmed", card, "--to", "liggghts", "--force")
+        for words, complaint in (((self.folder / "chute.json", "--out", self.folder), "is the folder of the application"),
+                                 (("", "--out", self.folder / "x"), "is empty"),
+                                 (("a" * 5000, "--out", self.folder / "x"), "a")):
+            result = run(*common, "--application", *words)
+            self.assertEqual(result.returncode, 2, result.stderr[-300:])
+            self.assertIn(complaint, result.stderr)
+        self.assertEqual((self.folder / "chute.stl").read_text(), before)
+        result = run(*common, "--application", "hopper", "--out", self.folder / "y", cwd=self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_starting_files(self):
         help_text = " ".join(run("template", "--help").stdout.split())  # as lines are broken
