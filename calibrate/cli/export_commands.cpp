@@ -260,8 +260,7 @@ nlohmann::ordered_json figures_json(const KeyFigures& found) {
 Command add_export(CLI::App& verb) {
   const auto options = std::make_shared<ExportOptions>();
   verb.add_option("CARD", options->card, "card file")->required();
-  std::string targets;
-  for (const auto& one : exporters()) targets += (targets.empty() ? "target: " : ", ") + std::string(one.name);
+  const std::string targets = "target: " + listed(exporters(), &Exporter::name);
   verb.add_option("--to", options->target, targets)->required()->type_name("TARGET");
   verb.add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");
   verb.add_option("--test", options->test,

@@ -247,13 +247,14 @@ Result<Export> export_liggghts(const ExportScene& scene) {
   out.notes = liggghts_losses(scene, written);
   if (scene.slump() && scene.slump()->drop && !scene.application)
     out.notes.push_back("The deck simulates step 1 only, without the drop of the plate (step 2).");
-  if (scene.application) out.notes.push_back(effort_in_words(*scene.application, scene, written.time_step_s));
-  if (scene.application)
+  if (scene.application) {
+    out.notes.push_back(effort_in_words(*scene.application, scene, written.time_step_s));
     out.files = liggghts_application(scene, written, models, out.notes);
-  else if (scene.slump())
+  } else if (scene.slump()) {
     out.files = {{"in.slump", liggghts_slump(scene, written, models, out.notes)},
                  {"grains.data", grains_data(scene, {.types = 3, .mould_heights = 2.5})},
                  {"mould.stl", mould_stl(scene.slump()->mould)}};
+  }
   if (!scene.application) out.files.push_back({"in.two_grains", liggghts_two_grains(scene, written, out.notes)});
   out.files.push_back({"material.inc", liggghts_material(scene, written, models)});
   if (written.fit) out.files.push_back(bridge_curves(scene, *written.fit));
