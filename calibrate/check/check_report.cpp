@@ -32,8 +32,8 @@ std::string text_of(const CheckedFile& checked) {
   for (const auto& reading : check.readings) out += table_row(reading);
   if (!std::ranges::all_of(check.readings, &CheckedReading::agrees)) out += "  x: outside the band\n";
   if (check.simulations > 0)
-    out += format("  %d simulations; bits: %s; false alarm rate %g over all readings of the card\n", check.simulations,
-                  std::string(name_of(check.bits)).c_str(), check.false_alarm);
+    out += format("  %d simulations; bits: %s. If the card is still valid, the probability of a false alarm is %g.\n",
+                  check.simulations, std::string(name_of(check.bits)).c_str(), check.false_alarm);
   out += "  " + std::string(name_of(check.verdict));
   return wrapped(out + lines_of(check.reason.empty() ? "" : ": " + check.reason) + "\n");
 }

@@ -53,9 +53,10 @@ std::string determined_alone(const Inference& inference) {
         enumerated(inference.fitted).c_str(), one.parameter.name.c_str());
   if (one.parameter.prior || one.not_identified()) return out;
   const std::vector<std::string>& led = inference.combinations.front().readings;
-  return out + format("  %s %s %s to %s (95 %%).\n", enumerated(led.empty() ? inference.fitted : led).c_str(),
-                      (led.empty() ? inference.fitted : led).size() > 1 ? "fix" : "fixes", one.parameter.name.c_str(),
-                      ends_in_words(one.lower, one.upper).c_str());
+  return out + format("  %s %s %s to the interval %s (95 %%).\n",
+                      enumerated(led.empty() ? inference.fitted : led).c_str(),
+                      (led.empty() ? inference.fitted : led).size() > 1 ? "limit" : "limits",
+                      one.parameter.name.c_str(), ends_in_words(one.lower, one.upper).c_str());
 }
 
 std::string determined(const Inference& inference) {
@@ -72,9 +73,10 @@ std::string determined(const Inference& inference) {
     const ParameterInterval& lead = inference.intervals[combination.lead];
     if (!combination.determined() || (said.empty() && !lead.held_exists())) continue;
     if (said.empty()) {
-      out += format("  %s %s %s to %s (95 %%), the other parameters fixed at the recommended values.\n",
-                    enumerated(combination.readings).c_str(), combination.readings.size() > 1 ? "fix" : "fixes",
-                    lead.parameter.name.c_str(), ends_in_words(lead.held_lower, lead.held_upper).c_str());
+      out +=
+          format("  With the other parameters fixed at the recommended values, %s %s %s to the interval %s (95 %%).\n",
+                 enumerated(combination.readings).c_str(), combination.readings.size() > 1 ? "limit" : "limits",
+                 lead.parameter.name.c_str(), ends_in_words(lead.held_lower, lead.held_upper).c_str());
       out += exchange_of(inference, combination);
     } else {
       const std::string width = lead.parameter.scale == Scale::linear
@@ -96,10 +98,10 @@ std::string prior_line(const ParameterInterval& one) {
       format("  %s had the prior %s +- %s; ", one.parameter.name.c_str(), plain(one.parameter.prior->value).c_str(),
              plain(one.parameter.prior->standard_deviation).c_str());
   if (one.uncertainty > worth_measuring)
-    return known + format("the readings do not narrow it: the interval %s (95 %%) comes from the prior.\n",
+    return known + format("the readings do not narrow it. The 95 %% interval, %s, comes from the prior.\n",
                           ends_in_words(one.lower, one.upper).c_str());
   return known +
-         format("with the readings the interval is %s (95 %%), which leaves %.0f %% of the prior's uncertainty.\n",
+         format("with the readings, the 95 %% interval is %s, which leaves %.0f %% of the prior's uncertainty.\n",
                 ends_in_words(one.lower, one.upper).c_str(), 100 * one.uncertainty);
 }
 
@@ -124,11 +126,11 @@ std::string intervals(const Inference& inference) {
     } else if (inference.intervals.size() == 1) {
       continue;
     } else if (one.interval_exists()) {
-      out += format("  %s lies between %s and %s (95 %%), all parameters free.\n", one.parameter.name.c_str(),
+      out += format("  With all parameters free, %s lies between %s and %s (95 %%).\n", one.parameter.name.c_str(),
                     plain(one.lower.at).c_str(), plain(one.upper.at).c_str());
     } else {
       out += format(
-          "  %s lies %s %s (95 %%), all parameters free; the study's bound "
+          "  With all parameters free, %s lies %s %s (95 %%); the study's bound "
           "sets the other end.\n",
           one.parameter.name.c_str(), one.lower.known ? "above" : "below",
           plain((one.lower.known ? one.lower : one.upper).at).c_str());

@@ -152,11 +152,11 @@ std::string remarks_on(const SlumpTest& test, std::span<const Readings> runs) {
         *runs[0].find("step1.lateral_shift_mm"), limit_mm);
   const ProbabilityInterval share = binomial_interval(sheared, sheared + whole);
   const std::string heaps = format(
-      "%d of %zu heaps sheared off (95 %% interval of the share: %.0f to %.0f %%; top shifted by more than %g mm); "
-      "standards require such a test to be repeated",
+      "%d of %zu heaps sheared off (95 %% interval of the share: %.0f to %.0f %%): the top shifted by more than %g "
+      "mm. Standards require such a test to be repeated",
       sheared, runs.size(), 100 * share.lower, 100 * share.upper, limit_mm);
   if (whole == 0) return heaps + ", so the readings are means of sheared heaps";
-  return heaps + format(", so the means exclude these heaps (height after step 1 with them: %.1f mm)",
+  return heaps + format(", so the means exclude these heaps. With them, the height after step 1 would be %.1f mm",
                         all_mm / (sheared + whole));
 }
 

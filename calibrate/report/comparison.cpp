@@ -166,7 +166,7 @@ std::string comparison_lines(std::span<const CardFile> cards) {
   };
   if (std::ranges::any_of(parameters, marked))
     return out + "\n* outside the interval of another card: the two cards disagree.\n";
-  return out + "\nNo card's interval excludes the value of another one.\n";
+  return out + "\nNo card has a value outside the interval of another card.\n";
 }
 
 nlohmann::ordered_json comparison_json(std::span<const CardFile> cards) {

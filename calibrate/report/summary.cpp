@@ -174,10 +174,10 @@ std::string summary_of(const Card& card, const std::string& findings) {
   std::string out = one_line(card.title) + "\n\n" + type_in_lines(card) + "\n" + parameter_lines(card) + "\n" +
                     reading_lines(card) + yield_stress_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
   if (card.interpolated) return wrapped(lines_of(out) + one_line(verdict_of(card)) + "\n");
-  out += format("%d of %d simulations", card.search.simulations, card.search.budget);
+  out += format("The calibration used %d simulations (budget: %d)", card.search.simulations, card.search.budget);
   if (card.search.coarse_simulations > 0) out += format(" and %d with coarse grains", card.search.coarse_simulations);
-  if (card.search.failures.empty()) out += ", none failed";
-  for (const auto& [reason, count] : card.search.failures) out += format(", %d failed (%s)", count, reason.c_str());
+  if (card.search.failures.empty()) out += "; none failed";
+  for (const auto& [reason, count] : card.search.failures) out += format("; %d failed (%s)", count, reason.c_str());
   out += ". Strategy " + one_line(card.search.strategy + ": " + card.search.status) + ".\n";
   return wrapped(lines_of(out + remark_lines(card) + hold_out_lines(card) + reservation_lines(card)) +
                  one_line(verdict_of(card)) + "\n");

@@ -213,9 +213,8 @@ TEST_CASE("the summary counts the packings that sheared off, with the mean with 
     run.readings.set("step1.lateral_shift_mm", shift);
     runs.push_back(run);
   }
-  CHECK_THAT(summary_of(material),
-             Catch::Contains("1 of 3 heaps sheared off (95 % interval of the share: 1 to 91 %") &&
-                 Catch::Contains("the means exclude these heaps (height after step 1 with them: 98.0 mm)"));
+  CHECK_THAT(summary_of(material), Catch::Contains("1 of 3 heaps sheared off (95 % interval of the share: 1 to 91 %") &&
+                                       Catch::Contains("With them, the height") && Catch::Contains("would be 98.0 mm"));
   runs.pop_back();
   CHECK_THAT(summary_of(material), !Catch::Contains("sheared"));
 }

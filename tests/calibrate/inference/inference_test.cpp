@@ -219,7 +219,7 @@ TEST_CASE("what no simulation has looked at is not ruled out by readings that ar
 
 TEST_CASE("the words name what is fixed, what is not, and what to measure") {
   const std::string words = describe(infer(evidence_for({first_alone, second_alone}), middle));
-  CHECK(words.find("step1.height_mm fixes first to") != std::string::npos);
+  CHECK(words.find("step1.height_mm limits first to") != std::string::npos);
   CHECK(words.find("second is not identifiable from this test") != std::string::npos);
   CHECK(words.find("measurements of step1.spread_mm") != std::string::npos);
   CHECK(warning_before(5, 0, {"a"}).find("1 fitted reading fixes at most 1 combination") != std::string::npos);

@@ -29,7 +29,7 @@ TEST_CASE("of two cards that differ in one parameter that one is shown, and mark
   auto parameters = comparison_json(std::vector{first, second})["parameters"];
   CHECK(parameters.size() == 1);
   CHECK(parameters["strength_pa"]["excluded"] == std::vector{false, false});
-  CHECK_THAT(comparison_lines(std::vector{first, second}), Catch::Contains("No card's interval excludes"));
+  CHECK_THAT(comparison_lines(std::vector{first, second}), Catch::Contains("No card has a value outside the interval"));
   value_of(second, "strength_pa") = 2001;
   parameters = comparison_json(std::vector{first, second})["parameters"];
   CHECK(parameters["strength_pa"]["excluded"] == std::vector{false, true});
