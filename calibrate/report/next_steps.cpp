@@ -114,7 +114,7 @@ std::string in_the_way(const Card& card) {
 std::string next_step_lines(const std::string& in_the_way, const std::vector<NextStep>& steps) {
   if (steps.empty()) return "";
   std::string out =
-      "\n" + (in_the_way.empty() ? "" : wrapped("In the way: " + one_line(in_the_way) + ".\n")) + "Ready to run\n";
+      "\n" + (in_the_way.empty() ? "" : wrapped("Not confirmed: " + one_line(in_the_way) + ".\n")) + "Ready to run\n";
   for (const NextStep& step : steps) out += "  " + step.why + ":\n    " + one_line(step.command) + "\n";
   return out;
 }

@@ -123,7 +123,7 @@ class CommandLine(Desk):
         study.write_text(study.read_text().replace('"tolerance_mm": 5', '"tolerance_mm": 0.001'))
         result = self.calibrates(study, "--threads", TWO)
         self.assertEqual(result.returncode, 1)
-        end = result.stdout[result.stdout.index("In the way: "):]
+        end = result.stdout[result.stdout.index("Not confirmed: "):]
         self.assertIn("step1.height_mm is off by", end)
         commands = [line.strip() for line in end.splitlines() if line.startswith("    pastefit ")]
         self.assertIn(len(commands), (2, 3))
