@@ -17,12 +17,20 @@
 
 namespace pastefit {
 
-/// printf-formatted text. Numbers and C strings only.
+/// The value as printf takes it.
+auto for_printf(const auto& value) {
+  return value;
+}
+inline const char* for_printf(const std::string& text) {
+  return text.c_str();
+}
+
+/// printf-formatted text of numbers, C strings and strings.
 template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  const int length = std::snprintf(nullptr, 0, pattern, values...);
+std::string format(const char* pattern, const Values&... values) {
+  const int length = std::snprintf(nullptr, 0, pattern, for_printf(values)...);
   std::string text(length > 0 ? static_cast<std::size_t>(length) : 0, ' ');
-  std::snprintf(text.data(), text.size() + 1, pattern, values...);
+  std::snprintf(text.data(), text.size() + 1, pattern, for_printf(values)...);
   return text;
 }
 

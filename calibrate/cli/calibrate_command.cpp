@@ -72,9 +72,9 @@ int deliver_material(const CalibrationResult& result, const Store& store, const 
   const Card& card = *result.card;
   const auto summary = summary_of(card, result.inference ? describe(*result.inference) : "");
   const auto unwritten = write_card(folder, card, summary);
-  print("%s", (options.json ? json_text(to_json(card)) : summary).c_str());
+  print(options.json ? json_text(to_json(card)) : summary);
   if (!options.json && !is_quiet())  // not in the file: the commands are those of this folder
-    print("%s", next_step_lines(in_the_way(card), next_steps(card, options.command(), options.out)).c_str());
+    print(next_step_lines(in_the_way(card), next_steps(card, options.command(), options.out)));
   refuse(unwritten, kFailed);
   std::vector<std::string> files{kCardFile, kSummary, kPage, kStore};
   refuse(write_looks(folder, findings_of(card, store, result.inference), stop,
@@ -100,11 +100,10 @@ int say_why_not(const CalibrationResult& result, const Study& study, const Store
     std::fprintf(stderr, "%s",
                  next_step_lines("", next_steps_without_card(status, options.command(), options.study)).c_str());
   if (options.json)
-    print("%s", json_text({{"status", name_of(result.search.status)},
-                           {"reason", result.search.reason},
-                           {"simulations", result.search.simulations},
-                           {"failures", failures}})
-                    .c_str());
+    print(json_text({{"status", name_of(result.search.status)},
+                     {"reason", result.search.reason},
+                     {"simulations", result.search.simulations},
+                     {"failures", failures}}));
   (void)write_page(folder.path(), findings_without_card(study, store));
   return kFailed;
 }
@@ -174,11 +173,11 @@ void print_seeds(const SeedCards& found, bool json) {
   if (json) {
     auto out = comparison_json(found.cards);
     out["without_card"] = found.without;
-    print("%s", json_text(out).c_str());
+    print(json_text(out));
     return;
   }
-  if (found.cards.size() > 1) print("%s", comparison_lines(found.cards).c_str());
-  for (const std::string& one : found.without) print("%s", wrapped("No card of " + one_line(one) + "\n").c_str());
+  if (found.cards.size() > 1) print(comparison_lines(found.cards));
+  for (const std::string& one : found.without) print(wrapped("No card of " + one_line(one) + "\n"));
 }
 
 /// Searches with the study's seed and the following ones, each a process of its own with the folder seed-NUMBER, and

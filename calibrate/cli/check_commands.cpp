@@ -50,16 +50,15 @@ int run_doctor(const DoctorOptions& options) {
   const auto diagnoses = diagnoses_of(card, findings.evaluations);
   const auto doubtful = std::ranges::count_if(diagnoses, &Diagnosis::is_doubtful);
   if (options.json) {
-    print("%s", json_text({{"confirmed", cause_unconfirmed(card).empty()},
-                           {"doubtful", doubtful},
-                           {"diagnoses", diagnosis_json(diagnoses)},
-                           {"missing", findings.missing}})
-                    .c_str());
+    print(json_text({{"confirmed", cause_unconfirmed(card).empty()},
+                     {"doubtful", doubtful},
+                     {"diagnoses", diagnosis_json(diagnoses)},
+                     {"missing", findings.missing}}));
     return doubtful == 0 ? kDone : kFailed;
   }
-  if (const std::string open = unconfirmed_line(card); !open.empty()) print("%s\n", wrapped(one_line(open)).c_str());
-  print("%s", diagnosis_lines(diagnoses).c_str());
-  for (const std::string& one : findings.missing) print("%s\n", wrapped(one_line(one)).c_str());
+  if (const std::string open = unconfirmed_line(card); !open.empty()) print(wrapped(one_line(open)) + "\n");
+  print(diagnosis_lines(diagnoses));
+  for (const std::string& one : findings.missing) print(wrapped(one_line(one)) + "\n");
   print("%td of %zu doubtful. The pages are those of the manual.\n", doubtful, diagnoses.size());
   return doubtful == 0 ? kDone : kFailed;
 }
@@ -141,10 +140,10 @@ int check_all(const CheckCommand& options) {
     }
     one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     line.clear();
-    if (!options.json && !is_standard_output(options.junit)) print("%s", text_of(one).c_str());
+    if (!options.json && !is_standard_output(options.junit)) print(text_of(one));
     checked.push_back(std::move(one));
   }
-  if (options.json && !is_standard_output(options.junit)) print("%s", json_text(to_json(checked)).c_str());
+  if (options.json && !is_standard_output(options.junit)) print(json_text(to_json(checked)));
   if (!options.junit.empty()) refuse(write_output(options.junit, junit_of(checked)), kFailed);
   return status_of(checked);
 }
@@ -193,7 +192,7 @@ int run_verify(const VerifyOptions& options) {
   const std::vector<VerifiedCase> cases = value_or_throw(verified);
   const VerifyCounts counts = counts_of(cases);
   if (options.json) {
-    print("%s", json_text(to_json(cases)).c_str());
+    print(json_text(to_json(cases)));
   } else {
     print_cases(cases, options.points);
     print("%zu cases, %zu checks, %zu failed, %zu known deviations\n", cases.size(), counts.checks, counts.failed,

@@ -88,7 +88,7 @@ int export_to_folder(const ExportOptions& options) {
     refuse(write_atomically(folder.file(file.name), file.content), kFailed);
   }
   for (const auto& file : files) print("wrote %s\n", folder.file(file.name).c_str());
-  print("%s", files.back().content.c_str());
+  print(files.back().content);
   return kDone;
 }
 
@@ -143,17 +143,17 @@ std::string reading_table(const std::vector<HeapReading>& readings, const std::s
                            "difference", "noise");
   for (const HeapReading& one : readings) {
     const CardReading* const card = one.of_card;
-    out += format("%-27s %10.5g", one.name.c_str(), one.read);
+    out += format("%-27s %10.5g", one.name, one.read);
     if (!card) {
       out += format(" %17s\n", "not on the card");
       continue;
     }
     const std::string scatter = card->packings > 1 ? format(" +- %.2g", card->simulated_standard_deviation) : "";
-    out += format(" %17s", (format("%.5g", card->simulated) + scatter).c_str());
-    out += format(" %17s", card->measured ? format("%.5g +- %.2g", *card->measured, card->standard_deviation).c_str()
-                                          : "not measured");
+    out += format(" %17s", format("%.5g", card->simulated) + scatter);
+    out += format(" %17s",
+                  card->measured ? format("%.5g +- %.2g", *card->measured, card->standard_deviation) : "not measured");
     const std::string noise = !one.band ? "unknown" : *one.band > 0 ? format("%.3g", *one.band) : "none";
-    out += format(" %+10.3g %8s", one.read - card->simulated, noise.c_str()) + (one.differs() ? "  differs\n" : "\n");
+    out += format(" %+10.3g %8s", one.read - card->simulated, noise) + (one.differs() ? "  differs\n" : "\n");
   }
   if (!packings.empty()) out += "Card: " + packings + ".\n";
   if (std::ranges::any_of(readings, &HeapReading::is_compared))
@@ -214,9 +214,9 @@ int read_heap_of(const ReadOptions& options) {
   const bool differs = rejected || std::ranges::any_of(readings, &HeapReading::differs);
   const bool compared = differs || std::ranges::any_of(readings, &HeapReading::is_compared);
   if (options.json) {
-    print("%s", json_text(json_of(readings, packings, compared ? std::optional(!differs) : std::nullopt)).c_str());
+    print(json_text(json_of(readings, packings, compared ? std::optional(!differs) : std::nullopt)));
   } else {
-    print("%s", reading_table(readings, packings_in_words(card.value(), test)).c_str());
+    print(reading_table(readings, packings_in_words(card.value(), test)));
     if (rejected) print("%s.\n", remarks_on(test.test, {&read, 1}).c_str());
     print(rejected
               ? "The heap sheared off, so it is not compared: the card's readings are means of heaps that did not.\n"
@@ -237,7 +237,7 @@ std::string figure_table(const KeyFigures& found) {
   for (const KeyFigure& one : found.figures) {
     const auto band = one.band();
     const std::string range = band ? plain(band->first) + " to " + plain(band->second) : "";
-    out += format("%-30s %9s %20s  ", one.name.c_str(), plain(one.mean()).c_str(), range.c_str()) +
+    out += format("%-30s %9s %20s  ", one.name, plain(one.mean()), range) +
            listed(
                one.of_runs, [](double value) { return plain(value); }, " ") +
            "\n";
@@ -289,7 +289,7 @@ Command add_kpi(CLI::App& verb) {
   verb.add_flag("--json", options->json, "print the figures as JSON");
   return [options] {
     const KeyFigures found = value_or_throw(read_key_figures(options->folder));
-    print("%s", (options->json ? json_text(figures_json(found)) : figure_table(found)).c_str());
+    print(options->json ? json_text(figures_json(found)) : figure_table(found));
     return kDone;
   };
 }

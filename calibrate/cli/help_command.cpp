@@ -157,12 +157,12 @@ int print_help(const CLI::App& program, const std::string& name) {
   if (name.empty()) {
     // program.help() would print the help of the current verb.
     const auto form = program.get_formatter();
-    print("%s", form->make_help(&program, program.get_name(), CLI::AppFormatMode::Normal).c_str());
+    print(form->make_help(&program, program.get_name(), CLI::AppFormatMode::Normal));
     return kDone;
   }
   const Names names = names_of(verbs_of(program), &CLI::App::get_name);
   if (names.contains(name)) {
-    print("%s", program.get_subcommand(name)->help(program.get_name()).c_str());
+    print(program.get_subcommand(name)->help(program.get_name()));
     return kDone;
   }
   const auto near = nearest(name, names);

@@ -79,7 +79,7 @@ int infer_again(const InferOptions& options) {
     card.inference.method += ", by " + program_identity();
   }
   const std::string summary = summary_of(card, findings);
-  print("%s", options.json ? json_text(to_json(card)).c_str() : summary.c_str());
+  print(options.json ? json_text(to_json(card)) : summary);
   if (!folder) return kDone;
   refuse(write_card(*folder, card, summary), kFailed);
   note("wrote %s\nwrote %s\n", folder->file(kCardFile).c_str(), folder->file(kSummary).c_str());

@@ -37,7 +37,7 @@ struct ShowOptions {
 
 int show(const ShowOptions& options) {
   const Card card = value_or_throw(read_card(options.card));
-  print("%s", (options.json ? json_text(with_yield_stresses(card)) : text_of(card)).c_str());
+  print(options.json ? json_text(with_yield_stresses(card)) : text_of(card));
   return kDone;
 }
 
@@ -55,7 +55,7 @@ int run_compare(const CompareArguments& options) {
     if (card.ok()) cards.push_back({file, std::move(card).value()});
   }
   refuse(std::move(faults));
-  print("%s", options.json ? json_text(comparison_json(cards)).c_str() : comparison_lines(cards).c_str());
+  print(options.json ? json_text(comparison_json(cards)) : comparison_lines(cards));
   return kDone;
 }
 
@@ -108,9 +108,9 @@ std::string prediction_table(const Prediction& found, std::size_t materials) {
   for (const ReadingPrediction& one : found.readings) {
     const auto [least, most] = std::ranges::minmax(one.of_materials);
     const std::string measured = one.measured ? plain(one.measured->value, 3) : "";
-    out += format("%-26s %9s %15s %15s %8s%s\n", one.name.c_str(), plain(one.mean, 3).c_str(),
-                  (plain(one.lower, 3) + " to " + plain(one.upper, 3)).c_str(),
-                  (plain(least, 3) + " to " + plain(most, 3)).c_str(), measured.c_str(), one.is_within() ? "" : " x");
+    out += format("%-26s %9s %15s %15s %8s%s\n", one.name, plain(one.mean, 3),
+                  plain(one.lower, 3) + " to " + plain(one.upper, 3), plain(least, 3) + " to " + plain(most, 3),
+                  measured, one.is_within() ? "" : " x");
   }
   if (!std::ranges::all_of(found.readings, &ReadingPrediction::is_within))
     out += "x: the measured value lies outside the band.\n";
@@ -155,8 +155,8 @@ std::string next_table(const NextTests& next) {
   for (const auto& [preset, one] : next.readings) {
     if (one.width_left() > worth_taking) continue;
     const auto [least, most] = std::ranges::minmax(one.of_materials);
-    out += format("%-18s %-26s %17s %9.0f %%\n", preset.c_str(), one.name.c_str(),
-                  (plain(least, 3) + " to " + plain(most, 3)).c_str(), 100 * one.width_left());
+    out += format("%-18s %-26s %17s %9.0f %%\n", preset, one.name, plain(least, 3) + " to " + plain(most, 3),
+                  100 * one.width_left());
     any = true;
   }
   if (!any) out = "No preset distinguishes between the materials that fit: their readings hardly differ.\n";
@@ -219,9 +219,8 @@ int predict_presets(const FittingMaterials& family, const PredictOptions& option
   line.clear();
   std::ranges::stable_sort(next.readings, {}, [](const auto& one) { return one.second.width_left(); });
   const std::string open = unconfirmed_line(family.card);
-  print("%s", (options.json ? json_text(next_json(next))
-                            : wrapped((open.empty() ? "" : one_line(open) + "\n") + next_table(next)))
-                  .c_str());
+  print(options.json ? json_text(next_json(next))
+                     : wrapped((open.empty() ? "" : one_line(open) + "\n") + next_table(next)));
   return kDone;
 }
 
@@ -240,7 +239,7 @@ int predict_other(const PredictOptions& options) {
   line.clear();
   const std::size_t materials = family.values.size();
   if (options.json) {
-    print("%s", json_text(prediction_json(found, materials)).c_str());
+    print(json_text(prediction_json(found, materials)));
   } else {
     const std::string open = unconfirmed_line(family.card);
     print("%s%s", open.empty() ? "" : (one_line(open) + "\n").c_str(), prediction_table(found, materials).c_str());

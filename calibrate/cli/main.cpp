@@ -111,7 +111,7 @@ int run(int argc, char** argv) {
   }
 
   if (argc == 1) {
-    print("%s", program.help().c_str());
+    print(program.help());
     return kDone;
   }
   if (names.contains(argv[1])) refuse(unknown_options(*program.get_subcommand(argv[1]), argc, argv));

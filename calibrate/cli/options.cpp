@@ -131,7 +131,7 @@ Faults output_folder_faults(const std::string& option, const fs::path& folder) {
 
 Faults write_output(const fs::path& file, std::string_view content) {
   if (is_standard_output(file)) {
-    print("%.*s", static_cast<int>(content.size()), content.data());
+    print(std::string(content));
     return {};
   }
   if (!is_stream(file)) return write_atomically(file, content);
@@ -143,7 +143,7 @@ Faults write_output(const fs::path& file, std::string_view content) {
 
 void deliver_card(const Card& card, const std::string& words, bool json, const fs::path& out) {
   const std::string content = value_or_throw(readable_text(card), kFailed);
-  if (!is_standard_output(out)) print("%s", (json ? content : words).c_str());
+  if (!is_standard_output(out)) print(json ? content : words);
   if (out.empty()) return;
   refuse(write_output(out, content), kFailed);
   if (!is_stream(out)) note("wrote %s\n", out.c_str());

@@ -103,7 +103,7 @@ int run_plan(const PlanArguments& options) {
   std::vector<std::string> predict{out, "--packings", std::to_string(options.packings)};
   if (options.json) predict.push_back("--json");
   note("What they leave in each test:\n");
-  print("%s", output_of("predict", predict, options, stop).c_str());
+  print(output_of("predict", predict, options, stop));
   return kDone;
 }
 

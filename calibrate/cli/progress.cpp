@@ -23,7 +23,7 @@ void StatusLine::show(const std::string& line) {
   if (terminal_)
     std::fprintf(stderr, "\r%s\033[K", one_line(line).c_str());
   else
-    note("%s\n", line.c_str());
+    note(line + "\n");
 }
 
 void StatusLine::clear() {
@@ -96,7 +96,7 @@ void WorkLine::look() {
     const int done = done_, left = std::max(0, total_ - done);
     // Running pieces count as begun: lower limit without them, upper limit with all of them.
     const double each_s = done > 0 ? line_.gone_s() / done : 0;
-    return fitted({format("%d of %d %s", done, total_, pieces_.c_str()), format("%.0f s gone", line_.gone_s()),
+    return fitted({format("%d of %d %s", done, total_, pieces_), format("%.0f s gone", line_.gone_s()),
                    done > 0 && left > 0 ? range_of_time(std::max(0, left - 1) * each_s, left * each_s) + " left" : ""});
   });
 }
@@ -164,7 +164,7 @@ std::string ProgressLine::text() const {
   int failed = 0;
   for (const auto& [reason, count] : counts_.failures) failed += count;
   std::string line =
-      fitted({format("%s %d of %d%s", phase_.c_str(), counts_.known(), study_.search.budget_simulations,
+      fitted({format("%s %d of %d%s", phase_, counts_.known(), study_.search.budget_simulations,
                      line_.is_terminal() ? "" : " simulations"),
               best_error_ < 0 ? "no error yet" : "error " + error_unit_of(study_).words(best_error_, "%.2f"),
               format("%.0f s gone", line_.gone_s()), time_left(), failed > 0 ? format("%d failed", failed) : "",

@@ -90,7 +90,7 @@ Scene scene_of(const SimulateOptions& options) {
   if (!test) return scene;
   if (options.seed) specimen_of(*test).packing_seed = *options.seed;
   refuse(in_file(validate_memory(*test, 1), options.file));
-  note("%s", apparatus_in_words(*test).c_str());
+  note(apparatus_in_words(*test));
   return scene;
 }
 
@@ -308,7 +308,7 @@ class SingleSimulation {
     if (outcome.failure) outlines_.clear();
     const auto text = simulation_json(outcome, test_, outlines_, wall_s);
     if (options_.json)
-      print("%s", text.c_str());
+      print(text);
     else
       print_simulation(outcome, wall_s, test_ && !std::holds_alternative<DropTest>(*test_));
     if (folder_) write(outcome, text);

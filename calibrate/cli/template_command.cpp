@@ -40,7 +40,7 @@ int print_template(TemplateOptions options, const std::string& names) {
     text = with_laws(*text, *laws);
   }
   if (!options.mould.empty()) text = template_of_mould(options);
-  print("%s", text->c_str());
+  print(*text);
   return kDone;
 }
 

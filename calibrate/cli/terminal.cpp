@@ -37,13 +37,13 @@ void note_error(bool failed) {
   if (failed && first_error == 0) first_error = errno;
 }
 
-[[gnu::format(printf, 1, 0)]] std::string harmless(const char* pattern, va_list values) {
+[[gnu::format(printf, 1, 0)]] std::string formatted(const char* pattern, va_list values) {
   va_list again;
   va_copy(again, values);
   std::string text(static_cast<std::size_t>(std::vsnprintf(nullptr, 0, pattern, values)), '\0');
   std::vsnprintf(text.data(), text.size() + 1, pattern, again);
   va_end(again);
-  return lines_of(text);
+  return text;
 }
 
 }  // namespace
@@ -80,20 +80,27 @@ std::string range_of_time(double least_s, double most_s) {
   return (unit(least) == unit(most) ? least.substr(0, least.find(' ')) : least) + " to " + most;
 }
 
+void print(const std::string& text) {
+  note_error(std::fputs(lines_of(text).c_str(), stdout) < 0);
+}
+
 void print(const char* pattern, ...) {
   va_list values;
   va_start(values, pattern);
-  note_error(std::fputs(harmless(pattern, values).c_str(), stdout) < 0);
+  print(formatted(pattern, values));
   va_end(values);
+}
+
+void note(const std::string& text) {
+  if (quiet) return;
+  note_error(std::fflush(stdout) != 0);  // keeps the order if both streams share a target
+  std::fputs(for_terminal(lines_of(text)).c_str(), stderr);
 }
 
 void note(const char* pattern, ...) {
   va_list values;
   va_start(values, pattern);
-  if (!quiet) {
-    note_error(std::fflush(stdout) != 0);  // keeps the order if both streams share a target
-    std::fputs(for_terminal(harmless(pattern, values)).c_str(), stderr);
-  }
+  note(formatted(pattern, values));
   va_end(values);
 }
 

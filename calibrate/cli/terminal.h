@@ -21,11 +21,13 @@ std::string fitted(const std::vector<std::string>& parts);
 /// Waiting time from `least_s` to `most_s` as text: "40 s to 3 min".
 std::string range_of_time(double least_s, double most_s);
 
-/// Prints to standard output with a printf pattern, without control sequences (`lines_of`).
+/// Prints a text, or values with a printf pattern, to standard output, without control sequences (`lines_of`).
+void print(const std::string& text);
 [[gnu::format(printf, 1, 2)]] void print(const char* pattern, ...);
 
 /// Prints progress and notes to standard error in the same way; silent after `be_quiet`. Not for faults, and not for
 /// reasons why there is no result.
+void note(const std::string& text);
 [[gnu::format(printf, 1, 2)]] void note(const char* pattern, ...);
 void be_quiet();
 bool is_quiet();

@@ -37,7 +37,7 @@ std::string readings_to_be_met(const Study& study) {
   std::string out;
   for (const StudyReading& reading : readings_of(study)) {
     if (reading.weight == 0) continue;
-    out += format("  %-24s %s", reading.name.c_str(), plain(reading.measurement.value, 5).c_str()) + " within " +
+    out += format("  %-24s %s", reading.name, plain(reading.measurement.value, 5)) + " within " +
            plain(reading.tolerance) + unit_at_end(reading.measurement.reading) + "\n";
   }
   return out;
@@ -81,7 +81,7 @@ std::string time_expected(const Study& study, int threads) {
   const int at_once = std::min(threads > 0 ? threads : processors(), most);
   const auto wall_s = [&](int simulations) { return one_s * simulations / at_once; };
   return "  time                     " + range_of_time(wall_s(fewest), wall_s(most)) +
-         format(": %d to %d simulations of about %s s, %d at once\n", fewest, most, plain(one_s, 2).c_str(), at_once);
+         format(": %d to %d simulations of about %s s, %d at once\n", fewest, most, plain(one_s, 2), at_once);
 }
 
 /// Free parameters that no fitted reading identifies.

@@ -28,7 +28,7 @@ std::string walls_in_edem(const ExportScene& scene, double surface_energy) {
     out += format(
         "   %s: shear modulus %.6g MPa, Poisson's ratio %.6g, restitution %.6g, static friction %.6g,\n"
         "   rolling friction %.6g, surface energy %.6g J/m2\n",
-        name.c_str(), 1e-6 * shear_modulus_pa(wall), wall.poissons_ratio, wall.restitution, wall.friction,
+        name, 1e-6 * shear_modulus_pa(wall), wall.poissons_ratio, wall.restitution, wall.friction,
         wall.rolling_friction, wall.cohesion_factor * surface_energy);
   return out;
 }

@@ -144,7 +144,7 @@ std::vector<std::string> liggghts_losses(const ExportScene& scene, const Written
   }
   for (const auto& [name, wall] : scene.walls())
     if (wall.cohesion_factor > 0 && written.normal != NormalLaw::sjkr)
-      notes.push_back(format("The attraction of grains to the %s (%.3g of that between grains) is lost.", name.c_str(),
+      notes.push_back(format("The attraction of grains to the %s (%.3g of that between grains) is lost.", name,
                              wall.cohesion_factor));
   if (contact.rolling == RollingModel::spring_dashpot && contact.rolling_friction > 0)
     notes.push_back(

@@ -51,11 +51,11 @@ std::string mass_inside(const Application& application) {
 std::string depth_formula(const DepthGauge& gauge, FigureColumns& columns) {
   const Vec3& at = gauge.floor.point_m;
   const std::string square = format("(x-(%.9g))^2+(y-(%.9g))^2+(z-(%.9g))^2", at.x, at.y, at.z);
-  std::string before = "variable     above atom " + distance_formula(gauge.floor) +
-                       format("\nvariable     near atom (%s-v_above^2<%.9g)*(v_above>0)\n", square.c_str(),
-                              gauge.radius_m * gauge.radius_m) +
-                       "variable     height atom v_above*v_near\n"
-                       "compute      near all reduce sum v_near\ncompute      height all reduce sum v_height\n";
+  std::string before =
+      "variable     above atom " + distance_formula(gauge.floor) +
+      format("\nvariable     near atom (%s-v_above^2<%.9g)*(v_above>0)\n", square, gauge.radius_m * gauge.radius_m) +
+      "variable     height atom v_above*v_near\n"
+      "compute      near all reduce sum v_near\ncompute      height all reduce sum v_height\n";
   columns.add("flow_depth_m", "2*c_height/(c_near+1e-9)");
   return before;
 }

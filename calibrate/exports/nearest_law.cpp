@@ -107,8 +107,7 @@ std::vector<std::string> differences_of_sticking(const ExportScene& scene, const
   std::vector<std::string> notes{
       format("%s has no %s. In its place stands %s with %s %.6g %s, which parts two grains of the mean radius by the "
              "same force, %.4g N. Another size needs another number: export a card of that size (pastefit rescale).",
-             std::string(target).c_str(), own.c_str(), other.c_str(),
-             by_area ? "a cohesion energy density of" : "a surface energy of",
+             std::string(target), own, other, by_area ? "a cohesion energy density of" : "a surface energy of",
              by_area ? written.cohesion_energy_density_pa : written.surface_energy_j_m2, by_area ? "Pa" : "J/m^2",
              deck.pull_off_n)};
   notes.push_back(
@@ -132,7 +131,7 @@ std::vector<std::string> differences_of_sticking(const ExportScene& scene, const
   notes.push_back(
       format("Friction of two mean grains that only stick holds %.3g N in the deck, %.3g N on the card (%s).",
              contact.friction * held, contact.friction * held_normal_force_n(contact, card),
-             word_of(contact.friction_basis, friction_bases).c_str()));
+             word_of(contact.friction_basis, friction_bases)));
   return notes;
 }
 

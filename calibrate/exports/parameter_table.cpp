@@ -161,7 +161,7 @@ std::string laws_in_words(const ExportScene& scene) {
         "                     as far as d = s %.6g m",
         kPassage * scene.radius_m());
   for (const auto& row : parameter_rows(scene))
-    numbers += format("  %-28s %16.9g   %s\n", row.name.c_str(), row.value, row.meaning.c_str());
+    numbers += format("  %-28s %16.9g   %s\n", row.name, row.value, row.meaning);
   return filled_in("exports/texts/laws.txt", {{"normal", normal_in_words(contact.normal)},
                                               {"rolling", rolling_in_words(contact.rolling)},
                                               {"bridge", bridge},

@@ -50,13 +50,12 @@ std::string determined_alone(const Inference& inference) {
     out += format(
         "  %s jumps with %s: predicted from the other simulations, a simulation is off by more than three standard "
         "deviations. There is no prediction between neighbouring simulations.\n",
-        enumerated(inference.fitted).c_str(), one.parameter.name.c_str());
+        enumerated(inference.fitted), one.parameter.name);
   if (one.parameter.prior || one.not_identified()) return out;
   const std::vector<std::string>& led = inference.combinations.front().readings;
-  return out + format("  %s %s %s to the interval %s (95 %%).\n",
-                      enumerated(led.empty() ? inference.fitted : led).c_str(),
-                      (led.empty() ? inference.fitted : led).size() > 1 ? "limit" : "limits",
-                      one.parameter.name.c_str(), ends_in_words(one.lower, one.upper).c_str());
+  return out + format("  %s %s %s to the interval %s (95 %%).\n", enumerated(led.empty() ? inference.fitted : led),
+                      (led.empty() ? inference.fitted : led).size() > 1 ? "limit" : "limits", one.parameter.name,
+                      ends_in_words(one.lower, one.upper));
 }
 
 std::string determined(const Inference& inference) {
@@ -66,7 +65,7 @@ std::string determined(const Inference& inference) {
         "  %s jumps near the recommended material: predicted from the other simulations, a simulation is off by more "
         "than ten standard deviations. There is no prediction there, and no interval with the other parameters "
         "fixed.\n",
-        enumerated(inference.fitted).c_str());
+        enumerated(inference.fitted));
   std::string out;
   std::vector<std::size_t> said;
   for (const Combination& combination : inference.combinations) {
@@ -75,15 +74,15 @@ std::string determined(const Inference& inference) {
     if (said.empty()) {
       out +=
           format("  With the other parameters fixed at the recommended values, %s %s %s to the interval %s (95 %%).\n",
-                 enumerated(combination.readings).c_str(), combination.readings.size() > 1 ? "limit" : "limits",
-                 lead.parameter.name.c_str(), ends_in_words(lead.held_lower, lead.held_upper).c_str());
+                 enumerated(combination.readings), combination.readings.size() > 1 ? "limit" : "limits",
+                 lead.parameter.name, ends_in_words(lead.held_lower, lead.held_upper));
       out += exchange_of(inference, combination);
     } else {
       const std::string width = lead.parameter.scale == Scale::linear
                                     ? format("+-%.2g", combination.lead_width)
                                     : format("+-%.0f %%", 100 * combination.lead_width);
-      out += format("  A further combination, mainly of %s, is determined to %s by %s.\n", lead.parameter.name.c_str(),
-                    width.c_str(), enumerated(combination.readings).c_str());
+      out += format("  A further combination, mainly of %s, is determined to %s by %s.\n", lead.parameter.name, width,
+                    enumerated(combination.readings));
     }
     said.push_back(combination.lead);
   }
@@ -94,15 +93,14 @@ std::string determined(const Inference& inference) {
 
 /// Contributions of prior and readings to a parameter.
 std::string prior_line(const ParameterInterval& one) {
-  const std::string known =
-      format("  %s had the prior %s +- %s; ", one.parameter.name.c_str(), plain(one.parameter.prior->value).c_str(),
-             plain(one.parameter.prior->standard_deviation).c_str());
+  const std::string known = format("  %s had the prior %s +- %s; ", one.parameter.name,
+                                   plain(one.parameter.prior->value), plain(one.parameter.prior->standard_deviation));
   if (one.uncertainty > worth_measuring)
     return known + format("the readings do not narrow it. The 95 %% interval, %s, comes from the prior.\n",
-                          ends_in_words(one.lower, one.upper).c_str());
+                          ends_in_words(one.lower, one.upper));
   return known +
          format("with the readings, the 95 %% interval is %s, which leaves %.0f %% of the prior's uncertainty.\n",
-                ends_in_words(one.lower, one.upper).c_str(), 100 * one.uncertainty);
+                ends_in_words(one.lower, one.upper), 100 * one.uncertainty);
 }
 
 std::string not_identified_because(const Inference& inference, const ParameterInterval& one) {
@@ -126,14 +124,13 @@ std::string intervals(const Inference& inference) {
     } else if (inference.intervals.size() == 1) {
       continue;
     } else if (one.interval_exists()) {
-      out += format("  With all parameters free, %s lies between %s and %s (95 %%).\n", one.parameter.name.c_str(),
-                    plain(one.lower.at).c_str(), plain(one.upper.at).c_str());
+      out += format("  With all parameters free, %s lies between %s and %s (95 %%).\n", one.parameter.name,
+                    plain(one.lower.at), plain(one.upper.at));
     } else {
       out += format(
           "  With all parameters free, %s lies %s %s (95 %%); the study's bound "
           "sets the other end.\n",
-          one.parameter.name.c_str(), one.lower.known ? "above" : "below",
-          plain((one.lower.known ? one.lower : one.upper).at).c_str());
+          one.parameter.name, one.lower.known ? "above" : "below", plain((one.lower.known ? one.lower : one.upper).at));
     }
   }
   if (any.size() == 1)
@@ -170,8 +167,8 @@ std::string family(const Inference& inference) {
   for (const ParameterInterval& one : inference.intervals) widest = std::max(widest, one.parameter.name.size());
   for (const std::string& reading : inference.fitted) widest = std::max(widest, reading.size());
   const auto row = [&](const std::string& name, const auto& cell) {
-    out += format("  %-*s", static_cast<int>(widest), name.c_str());
-    for (const EquivalentMaterial& member : inference.family) out += format(" %9s", cell(member).c_str());
+    out += format("  %-*s", static_cast<int>(widest), name);
+    for (const EquivalentMaterial& member : inference.family) out += format(" %9s", cell(member));
     out += "\n";
   };
   for (std::size_t k = 0; k < inference.intervals.size(); ++k)
@@ -191,9 +188,9 @@ std::string next(const Inference& inference) {
     const MeasurementGain& gain = inference.gains[i];
     if (gain.narrowing > worth_measuring) break;
     const bool known = std::ranges::find(inference.fitted, gain.reading) != inference.fitted.end();
-    out += format("  %d %smeasurements of %s (+-%s each) would narrow the interval of %s by %.0f %%.\n",
-                  gain.measurements, known ? "more " : "", gain.reading.c_str(), plain(gain.deviation).c_str(),
-                  gain.parameter.c_str(), 100 * (1 - gain.narrowing));
+    out +=
+        format("  %d %smeasurements of %s (+-%s each) would narrow the interval of %s by %.0f %%.\n", gain.measurements,
+               known ? "more " : "", gain.reading, plain(gain.deviation), gain.parameter, 100 * (1 - gain.narrowing));
   }
   if (inference.jumps) return "  The response jumps: the gain of a further measurement is not predicted.\n";
   if (out.empty())

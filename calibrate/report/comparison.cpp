@@ -109,17 +109,16 @@ std::string table_row(const std::string& name, const Values& values, std::size_t
       "  " + name +
       (name.size() > widest ? "\n" + std::string(widest + 2, ' ') : std::string(widest - name.size(), ' '));
   for (std::size_t i = first; i < last; ++i)
-    out +=
-        format("%10s", values[i] ? plain(*values[i], 4).c_str() : "-") + (i < marked.size() && marked[i] ? "*" : " ");
-  out += format("%9s", behind.c_str());
+    out += format("%10s", values[i] ? plain(*values[i], 4) : "-") + (i < marked.size() && marked[i] ? "*" : " ");
+  out += format("%9s", behind);
   out.erase(out.find_last_not_of(' ') + 1);
   return out + "\n";
 }
 
 std::string heading(const std::string& name, std::size_t first, std::size_t last, const std::string& behind) {
-  std::string out = format("%-27s", name.c_str());
-  for (std::size_t i = first; i < last; ++i) out += format("%10s ", letter_of(i).c_str());
-  return out + format("%9s\n", behind.c_str());
+  std::string out = format("%-27s", name);
+  for (std::size_t i = first; i < last; ++i) out += format("%10s ", letter_of(i));
+  return out + format("%9s\n", behind);
 }
 
 std::string tables(std::span<const ComparedParameter> parameters, std::span<const ComparedReading> readings,
@@ -152,7 +151,7 @@ std::string comparison_lines(std::span<const CardFile> cards) {
   std::string out = "Cards\n";
   for (std::size_t i = 0; i < cards.size(); ++i) {
     const std::string unconfirmed = unconfirmed_line(cards[i].card);
-    out += format("  %-3s", letter_of(i).c_str()) + one_line(printable(cards[i].name)) + ": " +
+    out += format("  %-3s", letter_of(i)) + one_line(printable(cards[i].name)) + ": " +
            (unconfirmed.empty() ? format("confirmed, error %.2f of the tolerance", cards[i].card.confirmation.error)
                                 : unconfirmed) +
            "\n";

@@ -17,7 +17,7 @@ std::string parameter_lines(const Card& card) {
   std::string out = "Scale-free parameters, the same for every grain size\n";
   for (const auto& parameter : card.material.parameters) {
     if (!has_parameter(card, parameter.name)) continue;
-    out += format("  %-24s %14.6g", parameter.name.c_str(), parameter.value);
+    out += format("  %-24s %14.6g", parameter.name, parameter.value);
     out += parameter.free ? format("   fitted, %g to %g", parameter.lower, parameter.upper) : "   fixed";
     if (const auto& prior = parameter.prior)
       out += format(", known as %g +- %g", prior->value, prior->standard_deviation);
@@ -30,7 +30,7 @@ std::string reading_lines(const std::vector<CardReading>& readings) {
   std::string out;
   for (const auto& reading : readings) {
     const auto error = standard_error(reading);
-    out += format("  %-24s ", reading.name.c_str());
+    out += format("  %-24s ", reading.name);
     out += reading.measured ? format("%10.4g %10.3g ", *reading.measured, reading.standard_deviation)
                             : format("%10s %10s ", "-", "-");
     out += format("%10.5g ", reading.simulated) + (error ? format("+- %-6.2g", *error) : std::string(9, ' '));
@@ -58,11 +58,11 @@ std::string reading_lines(const Card& card) {
 /// Yield stresses from simulated readings, compared with the measured one.
 std::string measured_yield_stress_lines(const CardTest& test, const std::vector<ComparedYieldStress>& compared) {
   if (!test.yield_stress) return "";
-  std::string out = format("  %-24s %10.4g %10.3g %10s Pa  measured\n", reading_name(test, "yield_stress_pa").c_str(),
+  std::string out = format("  %-24s %10.4g %10.3g %10s Pa  measured\n", reading_name(test, "yield_stress_pa"),
                            test.yield_stress->value, test.yield_stress->standard_deviation, "-");
   for (const ComparedYieldStress& one : compared)
-    out += format("    by %s: %.2g times the measured one, %+.2g standard deviations\n", one.reading.c_str(),
-                  *one.ratio, *one.deviations);
+    out += format("    by %s: %.2g times the measured one, %+.2g standard deviations\n", one.reading, *one.ratio,
+                  *one.deviations);
   return out;
 }
 
@@ -73,9 +73,9 @@ std::string yield_stress_lines(const Card& card) {
     const std::vector<ComparedYieldStress> compared = compared_yield_stresses(test);
     for (const ComparedYieldStress& one : compared) {
       if (!one.reading_pa && !test.yield_stress) continue;
-      out += format("  %-24s %10s %10s %10.0f Pa  %s\n", reading_name(test, one.reading).c_str(),
-                    one.reading_pa ? format("%.0f", *one.reading_pa).c_str() : "-", "", one.simulated_pa,
-                    std::string(one.formula).c_str());
+      out += format("  %-24s %10s %10s %10.0f Pa  %s\n", reading_name(test, one.reading),
+                    one.reading_pa ? format("%.0f", *one.reading_pa) : "-", "", one.simulated_pa,
+                    std::string(one.formula));
     }
     out += measured_yield_stress_lines(test, compared);
   }
@@ -177,7 +177,7 @@ std::string summary_of(const Card& card, const std::string& findings) {
   out += format("The calibration used %d simulations (budget: %d)", card.search.simulations, card.search.budget);
   if (card.search.coarse_simulations > 0) out += format(" and %d with coarse grains", card.search.coarse_simulations);
   if (card.search.failures.empty()) out += "; none failed";
-  for (const auto& [reason, count] : card.search.failures) out += format("; %d failed (%s)", count, reason.c_str());
+  for (const auto& [reason, count] : card.search.failures) out += format("; %d failed (%s)", count, reason);
   out += ". Strategy " + one_line(card.search.strategy + ": " + card.search.status) + ".\n";
   return wrapped(lines_of(out + remark_lines(card) + hold_out_lines(card) + reservation_lines(card)) +
                  one_line(verdict_of(card)) + "\n");
@@ -197,13 +197,12 @@ std::string inference_lines(const Card& card) {
   if (inference.intervals.empty() && inference.not_identified.empty())
     return out + "  not calculated: other materials may fit the same readings\n";
   if (!inference.intervals.empty())
-    out += format("  intervals of %g %% confidence (%s)\n", 100 * inference.level, inference.method.c_str());
+    out += format("  intervals of %g %% confidence (%s)\n", 100 * inference.level, inference.method);
   for (const auto& interval : inference.intervals)
-    out += format("  %-24s ", interval.parameter.c_str()) +
+    out += format("  %-24s ", interval.parameter) +
            interval_in_words(interval.lower, interval.upper, bounds_in(card, interval), 6) + "\n";
   for (const auto& [first, others] : inference.correlations)
-    for (const auto& [second, value] : others)
-      out += format("  %-24s %14.2f with %s\n", first.c_str(), value, second.c_str());
+    for (const auto& [second, value] : others) out += format("  %-24s %14.2f with %s\n", first, value, second);
   for (const auto& unseen : inference.not_identified)
     out += "  " + unseen.parameter + " is not identified: " + unseen.reason + "\n";
   return out;
@@ -230,7 +229,7 @@ std::string origin_lines(const Card& card) {
   std::string out = "From\n";
   for (const auto& test : card.tests) {
     const std::string laboratory = test.name.empty() ? "laboratory" : "laboratory of " + test.name;
-    out += format("  %-24s ", laboratory.c_str()) + one_line(test.lab_file + " (" + test.lab_hash) + ")\n";
+    out += format("  %-24s ", laboratory) + one_line(test.lab_file + " (" + test.lab_hash) + ")\n";
     if (!test.lab.source.empty()) out += "  its source               " + one_line(test.lab.source) + "\n";
   }
   out += "  study                    " + one_line(from.study_file + " (" + from.study_hash) + ")\n";
@@ -251,7 +250,7 @@ std::string baseline_lines(const Card& card) {
   for (const auto& change : card.rebaselined) {
     out += "  changed: " + one_line(change.why) + "\n";
     for (const auto& moved : change.moved)
-      out += format("    %-24s %12.5g -> %.5g\n", moved.reading.c_str(), moved.before, moved.after);
+      out += format("    %-24s %12.5g -> %.5g\n", moved.reading, moved.before, moved.after);
   }
   return out;
 }
@@ -263,7 +262,7 @@ std::string rescaling_lines(const Card& card) {
     if (step.bias.empty()) out += "  the bias of the readings was not measured\n";
     for (const auto& bias : step.bias)
       out +=
-          format("  %-24s %12.5g -> %.5g, bias %+.3g", bias.reading.c_str(), bias.before, bias.after,
+          format("  %-24s %12.5g -> %.5g, bias %+.3g", bias.reading, bias.before, bias.after,
                  bias.after - bias.before) +
           (bias.standard_error > 0 || card.confirmation.packings.size() > 1 ? format(" +- %.2g\n", bias.standard_error)
                                                                             : " (one packing, error unknown)\n");
@@ -287,8 +286,7 @@ std::string further_confirmation_text(const FurtherConfirmation& one) {
   out += format("  grains of %g mm, %zu packings (%d heaps accepted), ranks: %d, %.3g core s, %.3g s\n",
                 1e3 * one.radius_m, one.packings.size(), one.accepted, one.ranks, one.core_s, one.wall_s);
   for (const auto& reading : one.readings)
-    out += format("  %-24s %12.5g -> %.5g, bias %+.3g", reading.name.c_str(), reading.card, reading.simulated,
-                  reading.bias()) +
+    out += format("  %-24s %12.5g -> %.5g, bias %+.3g", reading.name, reading.card, reading.simulated, reading.bias()) +
            (reading.standard_error ? format(" +- %.2g\n", *reading.standard_error) : " (error unknown)\n");
   if (!one.error) return out;
   return out + "  The material " + (one.meets_laboratory ? "reproduces" : "is not shown to reproduce") +

@@ -172,7 +172,7 @@ std::string type_in_lines(const Card& card) {
     out += "  " + group.title + "\n";
     for (const TypeInRow& row : group.rows) {
       const std::string remark = row.remark.empty() ? "" : "  " + row.remark;
-      out += format("    %-24s %10s %-6s", row.quantity.c_str(), typed(row.value).c_str(), row.unit.c_str());
+      out += format("    %-24s %10s %-6s", row.quantity, typed(row.value), row.unit);
       while (remark.empty() && out.back() == ' ') out.pop_back();
       out += remark + "\n";
     }

@@ -31,7 +31,7 @@ std::string data_array(const std::string& name, const std::vector<Value>& values
   std::string bytes(sizeof size + size, '\0');
   std::memcpy(bytes.data(), &size, sizeof size);
   if (size > 0) std::memcpy(bytes.data() + sizeof size, data.data(), size);
-  return format("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"binary\">", type, name.c_str(),
+  return format("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"binary\">", type, name,
                 vectors ? 3 : 1) +
          base64(bytes) + "</DataArray>\n";
 }
@@ -53,7 +53,7 @@ std::string vtp_of(const VtkFrame& frame) {
              "<?xml version=\"1.0\"?>\n"
              "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
              "<PolyData>\n<Piece NumberOfPoints=\"%zu\" NumberOf%s=\"%zu\">\n",
-             frame.points_m.size(), frame.cells.c_str(), offsets.size()) +
+             frame.points_m.size(), frame.cells, offsets.size()) +
          element("Points", data_array("position", frame.points_m)) + element(frame.data_of, data) +
          element(frame.cells, data_array("connectivity", frame.connectivity) + data_array("offsets", offsets)) +
          "</Piece>\n</PolyData>\n</VTKFile>\n";
