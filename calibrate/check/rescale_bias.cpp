@@ -43,22 +43,16 @@ Result<Card> with_measured_bias(const Card& before, Card after, int count, const
 }
 
 FurtherConfirmation further_confirmation(const Card& card, const CardTest& test, const Test& simulated,
-                                         const EngineRuns& done) {
-  FurtherConfirmation out;
-  out.engine = done.engine;
-  out.program = done.program;
-  out.test = test.name;
-  out.radius_m = specimen_of(simulated).grains.radius_m;
-  for (const auto& run : done.runs) out.packings.push_back(run.packing);
-  const auto heaps = accepted(simulated, done.runs);
-  out.accepted = static_cast<int>(heaps.size());
-  out.ranks = done.ranks;
-  out.wall_s = done.wall_s;
-  out.core_s = done.core_s;
+                                         const std::vector<Baseline::Run>& runs, FurtherConfirmation done) {
+  done.test = test.name;
+  done.radius_m = specimen_of(simulated).grains.radius_m;
+  for (const auto& run : runs) done.packings.push_back(run.packing);
+  const auto heaps = accepted(simulated, runs);
+  done.accepted = static_cast<int>(heaps.size());
   CardTest there = test;
   there.readings.clear();
   there.test = simulated;
-  there.baseline.runs = done.runs;
+  there.baseline.runs = runs;
   for (const CardReading& of_card : test.readings) {
     const auto sample = sample_of(column_of(heaps, of_card.name));
     if (sample.count == 0) continue;
@@ -66,14 +60,14 @@ FurtherConfirmation further_confirmation(const Card& card, const CardTest& test,
     const auto error = standard_error(reading), error_of_card = standard_error(of_card);
     FurtherConfirmation::Reading beside{of_card.name, of_card.simulated, sample.mean, sample.standard_deviation, {}};
     if (error && error_of_card) beside.standard_error = std::hypot(*error, *error_of_card);
-    out.readings.push_back(std::move(beside));
+    done.readings.push_back(std::move(beside));
     there.readings.push_back(std::move(reading));
   }
-  if (evidence_of({&there, 1}).readings == 0) return out;
-  const Confirmation confirmation = confirmation_by(card, {&there, 1}, out.packings);
-  out.error = confirmation.error;
-  out.meets_laboratory = confirmation.meets_laboratory;
-  return out;
+  if (evidence_of({&there, 1}).readings == 0) return done;
+  const Confirmation confirmation = confirmation_by(card, {&there, 1}, done.packings);
+  done.error = confirmation.error;
+  done.meets_laboratory = confirmation.meets_laboratory;
+  return done;
 }
 
 }  // namespace pastefit

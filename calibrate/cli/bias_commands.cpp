@@ -121,11 +121,12 @@ Faults unusable_options(const ConfirmOptions& options) {
   return faults;
 }
 
-/// Runs the packings one after the other until the first failure.
-Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const fs::path& folder,
-                           const ConfirmOptions& options, const std::atomic<bool>& stop) {
-  EngineRuns out;
-  out.engine = options.engine;
+/// Runs the packings one after the other until the first failure. `done` gets the engine and the cost.
+Result<std::vector<Baseline::Run>> run_all(const Asked& asked, const LammpsLaunch& launch, const fs::path& folder,
+                                           const ConfirmOptions& options, const std::atomic<bool>& stop,
+                                           FurtherConfirmation& done) {
+  std::vector<Baseline::Run> runs;
+  done.engine = options.engine;
   for (int i = 0; i < options.packings; ++i) {
     const std::uint64_t packing = kFirstConfirmPacking + static_cast<std::uint64_t>(i);
     const Fault interrupted{"packing " + std::to_string(packing), "interrupted",
@@ -139,13 +140,13 @@ Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const
     if (!heap.ok()) return in_file(heap.faults(), interrupted.where);
     const auto& [readings, log] = heap.value();
     note("  %.3g s, %.3g core s, ranks: %d\n", log.wall_s, log.core_s, log.ranks);
-    out.program = log.program;
-    out.ranks = std::max(out.ranks, log.ranks);
-    out.wall_s += log.wall_s;
-    out.core_s += log.core_s;
-    out.runs.push_back({packing, readings});
+    done.program = log.program;
+    done.ranks = std::max(done.ranks, log.ranks);
+    done.wall_s += log.wall_s;
+    done.core_s += log.core_s;
+    runs.push_back({packing, readings});
   }
-  return out;
+  return runs;
 }
 
 /// Reads the card again, since another confirmation may have been added. Refused if the material has changed.
@@ -183,10 +184,11 @@ int confirm(const ConfirmOptions& options) {
   const double least_s = least_effort_s(asked.test.test);
   if (least_s > 10)
     note("%d packings, each of %s of a core or more\n", options.packings, range_of_time(least_s, least_s).c_str());
-  const auto runs = value_or_throw(run_all(asked, {options.launch, program}, folder, options, stop), kFailed);
+  FurtherConfirmation done;
+  const auto runs = value_or_throw(run_all(asked, {options.launch, program}, folder, options, stop, done), kFailed);
   const CardTest of_card = value_or_throw(test_to_export(card, options.test));
   try {
-    deliver(options, card, further_confirmation(card, of_card, asked.test.test, runs));
+    deliver(options, card, further_confirmation(card, of_card, asked.test.test, runs, done));
   } catch (const Refusal&) {
     std::fprintf(stderr, "pastefit: the runs are kept in %s; --runs continues from there\n", folder.c_str());
     throw;

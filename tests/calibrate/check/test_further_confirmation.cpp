@@ -24,25 +24,30 @@ Card card_of_height() {
 }
 
 /// Heaps that hardly shifted, but for the first ones, which sheared off.
-EngineRuns runs_of_heights(const std::vector<double>& heights, std::size_t sheared = 0) {
-  EngineRuns runs{"lammps", "LAMMPS (1)", {}, 2, 10, 20};
+std::vector<Baseline::Run> runs_of_heights(const std::vector<double>& heights, std::size_t sheared = 0) {
+  std::vector<Baseline::Run> runs;
   for (const double height : heights) {
     Readings readings;
     readings.set("step1.height_axis_mm", height);
-    readings.set("step1.lateral_shift_mm",
-                 runs.runs.size() < sheared ? 90 : 5 + static_cast<double>(runs.runs.size() % 3));
+    readings.set("step1.lateral_shift_mm", runs.size() < sheared ? 90 : 5 + static_cast<double>(runs.size() % 3));
     readings.set("step1.unknown_mm", 1);
-    runs.runs.push_back({runs.runs.size() + 1, readings});
+    runs.push_back({runs.size() + 1, readings});
   }
   return runs;
+}
+
+/// The confirmation of the first test by these runs.
+FurtherConfirmation confirmed_by(const Card& card, const std::vector<Baseline::Run>& runs) {
+  FurtherConfirmation done;
+  done.core_s = 20;
+  return further_confirmation(card, card.tests[0], card.tests[0].test, runs, done);
 }
 
 }  // namespace
 
 TEST_CASE("the bias of another engine is the difference of the means, with the noise of both") {
   const Card card = card_of_height();
-  const auto there =
-      further_confirmation(card, card.tests[0], card.tests[0].test, runs_of_heights({102, 104, 106, 108}));
+  const auto there = confirmed_by(card, runs_of_heights({102, 104, 106, 108}));
   REQUIRE(there.readings.size() == 1);
   CHECK(there.readings[0].bias() == 5);
   const double variance = 20.0 / 3;  // of 102, 104, 106, 108
@@ -56,7 +61,7 @@ TEST_CASE("the bias of another engine is the difference of the means, with the n
 TEST_CASE("a material meets the laboratory in another engine only where its readings and their noise allow it") {
   Card card = card_of_height();
   const auto verdict = [&](const std::vector<double>& heights) {
-    return further_confirmation(card, card.tests[0], card.tests[0].test, runs_of_heights(heights)).meets_laboratory;
+    return confirmed_by(card, runs_of_heights(heights)).meets_laboratory;
   };
   CHECK(verdict({101, 101.5, 101, 101.5}));
   CHECK_FALSE(verdict({107, 107.5, 107, 107.5}));  // 1.25 tolerances off
@@ -69,7 +74,7 @@ TEST_CASE("a material half of whose heaps shear off in another engine does not m
   const Card card = card_of_height();
   const auto meets = [&](std::size_t sheared) {
     const auto runs = runs_of_heights({101, 101.5, 101, 101.5, 101, 101.5, 101, 101.5}, sheared);
-    const auto there = further_confirmation(card, card.tests[0], card.tests[0].test, runs);
+    const auto there = confirmed_by(card, runs);
     CHECK(*there.error < 1);
     return there.meets_laboratory;
   };
@@ -82,7 +87,7 @@ TEST_CASE("the bias against one packing has no standard error, and a test that i
   Card card = card_of_height();
   card.tests[0].readings[0].packings = 1;
   card.tests[0].hold_out = true;
-  const auto there = further_confirmation(card, card.tests[0], card.tests[0].test, runs_of_heights({101, 102}));
+  const auto there = confirmed_by(card, runs_of_heights({101, 102}));
   CHECK_FALSE(there.readings[0].standard_error.has_value());
   CHECK_FALSE(there.error.has_value());
   CHECK_FALSE(there.meets_laboratory);
