@@ -88,9 +88,9 @@ std::string bridge_instructions(const ExportScene& scene) {
   std::string attraction;
   if (touch > 0)
     attraction = filled_in("exports/texts/edem_attraction.txt",
-                           {{"half_gap", format("%.6g", 500 * bridge_gaps(contact, scene.mean_pair()).rupture_m)},
-                            {"energy", format("%.6g", energy)},
-                            {"touch", format("%.6g", touch)}});
+                           {{"half_gap", shown(500 * bridge_gaps(contact, scene.mean_pair()).rupture_m)},
+                            {"energy", shown(energy)},
+                            {"touch", shown(touch)}});
   return edem_instructions(scene, "Hertz-Mindlin (no slip)",
                            ".\n   EDEM's damping is the same function of the restitution.", energy, attraction);
 }

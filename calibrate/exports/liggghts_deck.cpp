@@ -6,6 +6,7 @@
 #include "calibrate/base/embedded_text.h"
 #include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
+#include "calibrate/exports/stl.h"
 #include "calibrate/store/program.h"
 
 namespace pastefit {
@@ -69,9 +70,9 @@ std::string liggghts_slump(const ExportScene& scene, const Written& written, con
       {{"header", liggghts_begin(scene, "the slump test, step 1", notes)},
        {"use", yields(scene.contact().normal) ? "# liggghts -in in.slump, on one process"
                                               : "# liggghts -in in.slump, or mpirun -np 2 liggghts -in in.slump"},
-       {"skin", format("%.6g", 0.3 * test.grains.radius_m)},
+       {"skin", shown(0.3 * test.grains.radius_m)},
        {"elastic", takeover ? takeover->before : ""},
-       {"time_step", format("%.6g", written.time_step_s)},
+       {"time_step", shown(written.time_step_s)},
        {"walls", slump_walls(models)},
        {"drag", format("%.10g", 40 * mass)},
        {"relax", std::to_string(steps(0.25))},
@@ -95,13 +96,13 @@ std::string liggghts_two_grains(const ExportScene& scene, const Written& written
       "exports/texts/liggghts_two_grains.in",
       {{"header", liggghts_begin(scene, "force of two grains against their distance; prints \"" + word + " r F\"",
                                  scene.slump() ? std::vector<std::string>{} : notes)},
-       {"near", format("%.6g", 4 * radius)},
-       {"far", format("%.6g", 8 * radius)},
+       {"near", shown(4 * radius)},
+       {"far", shown(8 * radius)},
        {"types", std::to_string(scene.walls().size() + 1)},
        {"first", format("%.17g", legs[0].from_m)},
        {"diameter", format("%.17g", 2 * radius)},
        {"density", format("%.17g", scene.grain_density_kg_m3)},
-       {"skin", format("%.6g", 0.3 * radius)},
+       {"skin", shown(0.3 * radius)},
        {"time_step", format("%.17g", std::fabs(legs[0].to_m - legs[0].from_m) / legs[0].steps / speed)},
        {"word", word},
        {"legs", ways}});
@@ -109,23 +110,19 @@ std::string liggghts_two_grains(const ExportScene& scene, const Written& written
 
 std::string mould_stl(const Mould& mould) {
   constexpr int kSectors = 96, kBands = 4;
-  std::string out = "solid mould\n";
   const auto corner = [&](int sector, int band) {
     const double angle = 2 * std::numbers::pi * sector / kSectors, share = static_cast<double>(band) / kBands;
     const double radius = mould.base_radius_m + share * (mould.top_radius_m - mould.base_radius_m);
-    return format("  vertex %.9g %.9g %.9g\n", radius * std::cos(angle), radius * std::sin(angle),
-                  share * mould.height_m);
+    return Vec3{radius * std::cos(angle), radius * std::sin(angle), share * mould.height_m};
   };
-  const auto facet = [&](const std::string& a, const std::string& b, const std::string& c) {
-    out += "facet normal 0 0 0\n outer loop\n" + a + b + c + " endloop\nendfacet\n";
-  };
+  std::vector<Triangle> facets;
   for (int i = 0; i < kSectors; ++i)
     for (int k = 0; k < kBands; ++k) {
       const int next = (i + 1) % kSectors;
-      facet(corner(i, k), corner(next, k), corner(next, k + 1));
-      facet(corner(i, k), corner(next, k + 1), corner(i, k + 1));
+      facets.push_back({corner(i, k), corner(next, k), corner(next, k + 1)});
+      facets.push_back({corner(i, k), corner(next, k + 1), corner(i, k + 1)});
     }
-  return out + "endsolid mould\n";
+  return stl_text("mould", facets);
 }
 
 }  // namespace pastefit
