@@ -17,7 +17,6 @@
 #include "calibrate/cli/terminal.h"
 #include "calibrate/report/diagnosis.h"
 #include "calibrate/report/findings.h"
-#include "calibrate/store/output_folder.h"
 #include "calibrate/verify/verify.h"
 
 namespace pastefit {
@@ -37,7 +36,7 @@ Findings findings_at(const std::string& place) {
     findings.card = value_or_throw(read_card(place));
     return findings;
   }
-  findings = value_or_throw(read_findings(place, kStore));
+  findings = value_or_throw(read_findings(place));
   if (!findings.card)
     refuse({{place, "has no card to examine: " + one_line(findings.missing.front()),
              "pastefit calibrate STUDY --out " + shell_word_if_needed(place) + " --resume"}});

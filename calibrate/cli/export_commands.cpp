@@ -39,7 +39,7 @@ Result<std::vector<ExportFile>> files_of(const Card& card, const Exporter& expor
 
 /// Every material that fits, each with its card in a folder of its own. All but the first are not confirmed.
 Result<std::vector<ExportFile>> files_of_materials(const Exporter& exporter, ExportOptions options) {
-  const auto found = read_fitting_materials(fs::path(options.card).parent_path(), kStore);
+  const auto found = read_fitting_materials(fs::path(options.card).parent_path());
   if (!found.ok()) return found.faults();
   const auto& [own, materials] = found.value();
   std::vector<ExportFile> all;

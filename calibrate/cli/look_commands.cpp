@@ -23,7 +23,6 @@
 #include "calibrate/report/findings.h"
 #include "calibrate/report/page.h"
 #include "calibrate/report/summary.h"
-#include "calibrate/store/output_folder.h"
 #include "calibrate/study/apparatus.h"
 
 namespace pastefit {
@@ -75,7 +74,7 @@ int write_overview(const std::filesystem::path& folder, const std::vector<BatchR
 
 int write_report(const ReportOptions& options) {
   if (const auto rows = rows_in(options.folder); !rows.empty()) return write_overview(options.folder, rows);
-  Findings findings = value_or_throw(read_findings(options.folder, kStore));
+  Findings findings = value_or_throw(read_findings(options.folder));
   const std::filesystem::path folder = options.folder;
   refuse(output_folder_faults("DIR", folder));
   const auto tell = [](const std::string& sentence) { note("pastefit: %s\n", sentence.c_str()); };
@@ -225,7 +224,7 @@ int predict_presets(const FittingMaterials& family, const PredictOptions& option
 }
 
 int predict_other(const PredictOptions& options) {
-  const FittingMaterials family = value_or_throw(read_fitting_materials(options.folder, kStore));
+  const FittingMaterials family = value_or_throw(read_fitting_materials(options.folder));
   if (options.lab.empty() && options.preset.empty()) return predict_presets(family, options);
   std::optional<Lab> lab;
   if (!options.lab.empty()) lab = value_or_throw(read_lab(options.lab));

@@ -7,6 +7,7 @@
 #include "calibrate/card/card.h"
 #include "calibrate/evaluate/record.h"
 #include "calibrate/inference/examination.h"
+#include "calibrate/store/output_folder.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {
@@ -77,14 +78,14 @@ Inference inference_of(const Card& card, const TrainingData& evidence) {
   return inference;
 }
 
-Result<Findings> read_findings(const fs::path& folder, const std::string& store) {
+Result<Findings> read_findings(const fs::path& folder) {
   std::error_code error;
-  const fs::path card_file = folder / kCardFile, store_file = folder / store;
+  const fs::path card_file = folder / kCardFile, store_file = folder / kStore;
   if (!fs::is_directory(folder, error))
     return Fault{folder.string(), "is not a folder", "the folder of a calibration, as given to --out"};
   const bool has_card = fs::exists(card_file, error);
   if (!has_card && !fs::exists(store_file, error))
-    return Fault{folder.string(), "holds neither " + kCardFile + " nor " + store,
+    return Fault{folder.string(), "holds neither " + kCardFile + " nor " + kStore,
                  "the folder of a calibration, as given to --out"};
   Findings findings;
   if (!has_card) {
@@ -102,8 +103,8 @@ Result<Findings> read_findings(const fs::path& folder, const std::string& store)
   return findings;
 }
 
-Result<FittingMaterials> read_fitting_materials(const fs::path& folder, const std::string& store) {
-  const auto findings = read_findings(folder, store);
+Result<FittingMaterials> read_fitting_materials(const fs::path& folder) {
+  const auto findings = read_findings(folder);
   if (!findings.ok()) return findings.faults();
   const Findings& read = findings.value();
   if (!read.card || !read.inference)

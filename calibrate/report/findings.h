@@ -43,10 +43,10 @@ struct FittingMaterials {
 };
 
 /// Reads them from a folder written by `pastefit calibrate`. Error: there are none.
-Result<FittingMaterials> read_fitting_materials(const std::filesystem::path& folder, const std::string& store);
+Result<FittingMaterials> read_fitting_materials(const std::filesystem::path& folder);
 
-/// Reads a folder written by `pastefit calibrate`. Missing and damaged parts are listed in `missing`. `store`: file
-/// name of the evaluations. Error: no such folder, or neither card nor evaluations in it.
-Result<Findings> read_findings(const std::filesystem::path& folder, const std::string& store);
+/// Reads a folder written by `pastefit calibrate`. Missing and damaged parts are listed in `missing`. Error: no such
+/// folder, or neither card nor evaluations in it.
+Result<Findings> read_findings(const std::filesystem::path& folder);
 
 }  // namespace pastefit

@@ -19,7 +19,7 @@ std::string shipped_card() {
 }
 
 Findings findings_in(const test::Folder& folder) {
-  auto found = read_findings(folder.path(), "evaluations.sqlite");
+  auto found = read_findings(folder.path());
   REQUIRE(found.ok());
   return std::move(found).value();
 }
@@ -72,8 +72,8 @@ TEST_CASE("a page tells the lengths that the laboratory measured, also where not
 
 TEST_CASE("a folder that is none, or has no result in it, has no page") {
   const test::Folder folder;
-  CHECK_FALSE(read_findings(folder.path() / "none", "evaluations.sqlite").ok());
-  const auto empty = read_findings(folder.path(), "evaluations.sqlite");
+  CHECK_FALSE(read_findings(folder.path() / "none").ok());
+  const auto empty = read_findings(folder.path());
   REQUIRE_FALSE(empty.ok());
   CHECK_THAT(empty.faults()[0].what, Catch::Contains("holds neither card.json nor evaluations.sqlite"));
 }
