@@ -19,7 +19,6 @@
 #include "calibrate/cli/progress.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/evaluate/cost.h"
-#include "calibrate/report/comparison.h"
 #include "calibrate/report/findings.h"
 #include "calibrate/report/page.h"
 #include "calibrate/report/summary.h"

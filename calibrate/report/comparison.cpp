@@ -1,5 +1,3 @@
-#include "calibrate/report/comparison.h"
-
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -8,6 +6,7 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/card/standing.h"
+#include "calibrate/report/summary.h"
 
 namespace pastefit {
 

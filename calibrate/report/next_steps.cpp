@@ -1,11 +1,10 @@
-#include "calibrate/report/next_steps.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "calibrate/base/text.h"
 #include "calibrate/card/standing.h"
+#include "calibrate/report/diagnosis.h"
 #include "calibrate/search/calibration.h"
 #include "calibrate/study/parameters.h"
 

@@ -8,7 +8,6 @@
 #include "calibrate/card/standing.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/report/summary.h"
-#include "calibrate/report/type_in_table.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tolerance.h"

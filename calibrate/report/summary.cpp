@@ -6,7 +6,6 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/card/standing.h"
-#include "calibrate/report/type_in_table.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {

@@ -1,10 +1,9 @@
-#include "calibrate/report/type_in_table.h"
-
 #include <algorithm>
 
 #include "calibrate/base/text.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/laboratory/names.h"
+#include "calibrate/report/summary.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
 

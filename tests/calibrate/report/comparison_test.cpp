@@ -1,9 +1,9 @@
-#include "calibrate/report/comparison.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <sstream>
+
+#include "calibrate/report/summary.h"
 
 using namespace pastefit;
 

@@ -1,9 +1,8 @@
-#include "calibrate/report/next_steps.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "calibrate/card/standing.h"
+#include "calibrate/report/diagnosis.h"
 
 using namespace pastefit;
 

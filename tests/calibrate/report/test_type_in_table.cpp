@@ -8,7 +8,6 @@
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/report/summary.h"
-#include "calibrate/report/type_in_table.h"
 #include "tests/calibrate/folder.h"
 
 using namespace pastefit;
