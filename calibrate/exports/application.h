@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -7,7 +8,6 @@
 #include <vector>
 
 #include "calibrate/base/object_schema.h"
-#include "calibrate/exports/stl.h"
 #include "core/laws/materials.h"
 #include "core/result.h"
 #include "core/vec3.h"
@@ -31,6 +31,8 @@ struct Rotation {
   Vec3 point_m, axis;  ///< `axis`: not zero
   double revolutions_per_min = 0;
 };
+
+using Triangle = std::array<Vec3, 3>;
 
 /// Surface of one material, from an STL file.
 struct MachinePart {
@@ -87,5 +89,14 @@ double fastest_m_s(const Application& application);
 Faults unsuitable_grains(const Application& application, double largest_radius_m, double grain_density_kg_m3);
 
 ObjectSchema::Json application_schema();
+
+/// Reads the triangles of an STL file, ASCII or binary, with lengths times `metres_per_unit`, since STL has no unit.
+/// Triangles without an area are left out: LIGGGHTS refuses them. Errors: the file is unreadable or no STL; a
+/// corner cannot be read or lies beyond 10 km; no triangle is left. Source of the format: StereoLithography Interface
+/// Specification, 3D Systems (1989).
+Result<std::vector<Triangle>> read_stl(const std::filesystem::path& file, double metres_per_unit);
+
+/// ASCII STL. Normals are 0: readers compute them from the corners.
+std::string stl_text(const std::string& name, const std::vector<Triangle>& triangles);
 
 }  // namespace pastefit

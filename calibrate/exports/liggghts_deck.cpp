@@ -5,8 +5,8 @@
 
 #include "calibrate/base/embedded_text.h"
 #include "calibrate/base/text.h"
+#include "calibrate/exports/application.h"
 #include "calibrate/exports/elasto_plastic.h"
-#include "calibrate/exports/stl.h"
 #include "calibrate/store/program.h"
 
 namespace pastefit {

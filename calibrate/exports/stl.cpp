@@ -1,5 +1,3 @@
-#include "calibrate/exports/stl.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +8,7 @@
 
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/text.h"
+#include "calibrate/exports/application.h"
 
 namespace pastefit {
 

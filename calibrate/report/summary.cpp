@@ -107,7 +107,7 @@ std::string unfitted_words(const Card& card) {
     for (const auto& one : test.readings) {
       if (!one.measured || one.weight > 0 || test.hold_out) continue;
       const double off = std::abs(one.simulated - *one.measured);
-      out += " " + (test.name.empty() ? "" : test.name + "/") + one.name + " was not fitted and is " +
+      out += " " + reading_name(test, one.name) + " was not fitted and is " +
              format("%.3g%s off", off, is_length(one.name) ? " mm" : "");
       if (off <= one.standard_deviation)
         out += ", within its standard deviation";
