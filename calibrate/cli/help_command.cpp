@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
@@ -63,28 +64,12 @@ std::string flags_of(const CLI::App& verb) {
 }
 
 std::string bash_completion(const CLI::App& program) {
-  std::string verbs;
-  for (const CLI::App* verb : verbs_of(program)) verbs += verb->get_name() + " ";
-  std::string out =
-      "_pastefit() {\n"
-      "  local word=${COMP_WORDS[COMP_CWORD]} words\n"
-      "  if [ \"$COMP_CWORD\" = 1 ]; then\n"
-      "    COMPREPLY=($(compgen -W " +
-      shell_word(verbs + "--help --version") +
-      " -- \"$word\"))\n"
-      "    return\n"
-      "  fi\n"
-      "  case ${COMP_WORDS[1]} in\n";
-  for (const CLI::App* verb : verbs_of(program))
-    out += "    " + verb->get_name() + ") words=" + shell_word(flags_of(*verb)) + " ;;\n";
-  return out +
-         "  esac\n"
-         "  case $word in\n"
-         "    -*) COMPREPLY=($(compgen -W \"$words\" -- \"$word\")) ;;\n"
-         "    *) COMPREPLY=($(compgen -f -- \"$word\")) ;;\n"
-         "  esac\n"
-         "}\n"
-         "complete -o filenames -F _pastefit pastefit\n";
+  std::string verbs, cases;
+  for (const CLI::App* verb : verbs_of(program)) {
+    verbs += verb->get_name() + " ";
+    cases += "    " + verb->get_name() + ") words=" + shell_word(flags_of(*verb)) + " ;;\n";
+  }
+  return filled_in("cli/texts/completion.bash", {{"verbs", shell_word(verbs + "--help --version")}, {"cases", cases}});
 }
 
 std::string zsh_completion(const CLI::App& program) {
