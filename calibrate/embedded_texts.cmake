@@ -1,5 +1,5 @@
 # Makes a source file of text files: what `embedded_text` (base/embedded_text.h) answers with.
-file(GLOB texts RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS laboratory/templates/* exports/texts/* cli/texts/*)
+file(GLOB texts RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS laboratory/templates/* */texts/*)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${texts})
 set(cases "")
 foreach(text IN LISTS texts)

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/text.h"
 #include "calibrate/report/findings.h"
@@ -93,49 +94,21 @@ std::optional<BatchFailure> read_failure(const BatchStudy& one) {
 
 namespace {
 
-/// Beginning of both scripts.
-std::string heading_of_job(const ArrayJob& job, const std::string& meaning, const std::string& name) {
-  return "#!/bin/bash\n# " + meaning + " Written by pastefit " + program_version() +
-         ".\n# Time limit, partition, account and memory: options of sbatch, or further #SBATCH lines.\n#SBATCH "
-         "--job-name=" +
-         name + "\n#SBATCH --chdir=" + shell_word(job.directory.string()) + "\n#SBATCH --nodes=1 --ntasks=1\n";
-}
-
-std::string studies_of(const ArrayJob& job) {
-  std::string out = "studies=(\n";
-  for (const std::string& study : job.studies) out += "  " + shell_word(study) + "\n";
-  return out + ")\n";
-}
-
-/// Output option of Slurm, which replaces %a by the number of the element; % in the folder's name is doubled.
-std::string output_line(const ArrayJob& job, const std::string& name) {
-  std::string folder;
+/// The script of a job, whose output goes to this file in the batch's folder.
+std::string job_script(std::string_view text, const ArrayJob& job, const std::string& output) {
+  std::string studies, folder;
+  for (const std::string& study : job.studies) studies += "  " + shell_word(study) + "\n";
+  // Slurm replaces %a by the number of the element; % in the folder's name is doubled.
   for (const char letter : job.out.string()) folder += letter == '%' ? std::string("%%") : std::string(1, letter);
-  return "#SBATCH --output=" + shell_word((std::filesystem::path(folder) / name).string()) + " --open-mode=append\n";
+  return filled_in(text, {{"version", program_version()},
+                          {"directory", shell_word(job.directory.string())},
+                          {"last", std::to_string(job.studies.size() - 1)},
+                          {"workers", std::to_string(job.workers)},
+                          {"output", shell_word((fs::path(folder) / output).string())},
+                          {"studies", studies},
+                          {"program", shell_word(job.program.string())},
+                          {"out", shell_word(job.out.string())}});
 }
-
-std::string output_of_part(int part) {
-  return part == 1 ? "slurm-%a.txt" : "slurm-" + std::to_string(part) + "-%a.txt";
-}
-
-constexpr const char* kElement = R"sh(
-driver=
-requeue() { echo "$1: the element is queued again and continues where it was"; scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"; }
-# Before the time limit, and where Slurm or a person ends the job, the calibration ends with all that it has simulated.
-trap 'time_is_up=yes; kill -TERM $driver' USR1
-trap 'kill -TERM $driver' TERM
-)sh";
-
-constexpr const char* kWait = R"sh(driver=$!
-wait $driver; status=$?
-while kill -0 $driver 2>/dev/null; do wait $driver; status=$?; done
-if [ -n "$time_is_up" ]; then
-  requeue "the time is up"
-elif [ $status -gt 128 ] && [ "${SLURM_RESTART_COUNT:-0}" -lt 3 ]; then
-  requeue "pastefit was killed (status $status)"
-fi
-exit $status
-)sh";
 
 }  // namespace
 
@@ -157,18 +130,12 @@ Faults unusable_in_job(const ArrayJob& job) {
 }
 
 std::string array_job_script(const ArrayJob& job) {
-  const std::string last = std::to_string(job.studies.size() - 1);
-  return heading_of_job(job, "Calibrates one study per element.", "pastefit") + "#SBATCH --array=0-" + last +
-         "\n#SBATCH --cpus-per-task=" + std::to_string(job.workers) + "\n#SBATCH --requeue --signal=B:USR1@120\n" +
-         output_line(job, output_of_part(job.part)) + studies_of(job) + kElement + shell_word(job.program.string()) +
-         " batch \"${studies[SLURM_ARRAY_TASK_ID]}\" --out " + shell_word(job.out.string()) +
-         " --workers \"$SLURM_CPUS_PER_TASK\" --no-table &\n" + kWait;
+  return job_script("batch/texts/array_job.sh", job,
+                    job.part == 1 ? "slurm-%a.txt" : "slurm-" + std::to_string(job.part) + "-%a.txt");
 }
 
 std::string table_job_script(const ArrayJob& job) {
-  return heading_of_job(job, "Makes the table of the studies.", "pastefit-table") + "#SBATCH --requeue\n" +
-         output_line(job, "slurm-table.txt") + studies_of(job) + "exec " + shell_word(job.program.string()) +
-         " batch \"${studies[@]}\" --out " + shell_word(job.out.string()) + " --table\n";
+  return job_script("batch/texts/table_job.sh", job, "slurm-table.txt");
 }
 
 }  // namespace pastefit

@@ -5,6 +5,7 @@
 #include <optional>
 #include <system_error>
 
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/text.h"
 #include "calibrate/batch/batch.h"
 #include "calibrate/card/standing.h"
@@ -217,24 +218,6 @@ std::ptrdiff_t rank_of(const BatchRow& row) {
   return found - verdicts.begin() + (found == verdicts.end() && row.reasons.empty() ? 1 : 0);
 }
 
-constexpr const char* kStyle = R"(
-:root { color-scheme: light dark; --page: #fbfbf9; --text: #1c2126; --soft: #59636e; --rule: #d9dcdf;
-  --good: #00694d; --bad: #a63c00; --open: #6d5600; --laboratory: #c14d00; --simulation: #0068ad; }
-@media (prefers-color-scheme: dark) { :root { --page: #14181c; --text: #e4e8eb; --soft: #a2adb7; --rule: #343c44;
-  --good: #58d3ad; --bad: #ff9e66; --open: #e7cd6b; --laboratory: #ff9a4d; --simulation: #5cb8f5; } }
-h1 { overflow-wrap: anywhere; }
-body { font: 1rem/1.45 system-ui, sans-serif; background: var(--page); color: var(--text); margin: 1.5rem; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 0.94rem; }
-th, td { text-align: left; vertical-align: top; padding: 0.4rem 0.75rem 0.4rem 0; border-bottom: 1px solid var(--rule); }
-thead th { color: var(--soft); font-weight: 500; font-size: 0.85rem; vertical-align: bottom; }
-td.reasons { min-width: 18rem; max-width: 30rem; }
-td.number { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
-a { color: var(--simulation); }
-.met .verdict { color: var(--good); } .open .verdict { color: var(--open); } .bad .verdict { color: var(--bad); }
-.measured { color: var(--laboratory); } .simulated { color: var(--simulation); }
-)";
-
 /// URL-encodes a folder name.
 std::string in_link(const std::string& name) {
   std::string out;
@@ -286,14 +269,10 @@ std::string batch_page(const std::vector<BatchRow>& rows, const std::string& hea
               [&](const std::string& name, const ordered_json& value) { body += html_cell(row, name, value); });
     body += "</tr>\n";
   }
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width\"><title>pastefit: " +
-         xml_text(one_line(heading)) + "</title>\n<style>" + std::string(kStyle) + "</style></head>\n<body><h1>" +
-         xml_text(one_line(heading)) + "</h1>\n<p>" + xml_text(count_of(rows)) +
-         " Materials that are not confirmed come first. Units are in the names of the columns.</p>\n"
-         "<div class=\"wide\"><table><thead><tr>" +
-         head + "</tr></thead>\n<tbody>\n" + body + "</tbody></table></div></body></html>\n";
+  return filled_in("batch/texts/batch.html", {{"heading", xml_text(one_line(heading))},
+                                              {"count", xml_text(count_of(rows))},
+                                              {"columns", head},
+                                              {"rows", body}});
 }
 
 }  // namespace pastefit
