@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "calibrate/calibrator.h"
-#include "calibrate/card/calibration_card.h"
 #include "calibrate/evaluate/cost.h"
 #include "calibrate/evaluate/simulation_pool.h"
 #include "calibrate/evaluate/study_scoring.h"

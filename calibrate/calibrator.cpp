@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "calibrate/card/calibration_card.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/study/tests.h"
 

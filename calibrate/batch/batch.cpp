@@ -1,7 +1,6 @@
 #include "calibrate/batch/batch.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>

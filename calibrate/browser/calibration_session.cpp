@@ -8,12 +8,10 @@
 #include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 #include "calibrate/calibrate.h"
-#include "calibrate/evaluate/record.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/laboratory/engine.h"
 #include "calibrate/report/page.h"
 #include "calibrate/report/summary.h"
-#include "calibrate/store/outcome_json.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/tests.h"
 

@@ -12,7 +12,6 @@
 #include "calibrate/evaluate/simulation.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/laboratory/test.h"
-#include "calibrate/store/outcome_json.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/slump_sheet.h"

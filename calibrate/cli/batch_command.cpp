@@ -1,5 +1,4 @@
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -8,7 +7,6 @@
 #include <vector>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/machine.h"
 #include "calibrate/base/text.h"
 #include "calibrate/batch/batch.h"
 #include "calibrate/calibrate.h"

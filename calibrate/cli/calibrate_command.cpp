@@ -10,7 +10,6 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/calibrate.h"
-#include "calibrate/card/calibration_card.h"
 #include "calibrate/card/standing.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"

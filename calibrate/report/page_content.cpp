@@ -1,7 +1,6 @@
 #include "calibrate/report/page_content.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/text.h"

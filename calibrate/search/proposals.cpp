@@ -1,7 +1,6 @@
 #include "calibrate/search/proposals.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "calibrate/optimisers/problem.h"
 #include "calibrate/search/surrogate.h"
