@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/machine.h"
 #include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
@@ -20,14 +21,6 @@ namespace pastefit {
 namespace fs = std::filesystem;
 
 namespace {
-
-const std::string kBuild =
-    "style/ is LAMMPS with the card's laws. Build it once, with Debian's liblammps-dev:\n"
-    "    (cd style && " +
-    lammps_style_build("../lmp_pastefit") +
-    ")\n"
-    "    ./lmp_pastefit -in DECK                  or: mpirun -np 2 ./lmp_pastefit -in DECK, which is in.slump or\n"
-    "    in.two_grains\n";
 
 /// LAMMPS of 2025 has this law, Debian's version does not; untested.
 std::string note_of_granular(const ExportScene& scene) {
@@ -108,7 +101,7 @@ Result<Export> export_lammps(const ExportScene& scene) {
           format("The deck drops the plate once: the heap of step 2. The card's test goes on to %d drops.",
                  test->drop->drops));
   }
-  out.instructions = kBuild;
+  out.instructions = filled_in("exports/texts/lammps_build.txt", {{"build", lammps_style_build("../lmp_pastefit")}});
   out.files = lammps_deck(scene, out.notes);
   for (auto& file : style.value()) out.files.push_back({"style/" + file.name, std::move(file.content)});
   if (scene.slump()) out.heap = "heap.dump";
