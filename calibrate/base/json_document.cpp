@@ -7,7 +7,6 @@
 
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/json_reader.h"
-#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 
 namespace pastefit {

@@ -35,8 +35,7 @@ auto read_file(const std::filesystem::path& file, const auto& from_json)
   if (!document) return faults;
   auto read = from_json(*document);
   if (read.ok() && faults.empty()) return read;
-  if (!read.ok())
-    for (Fault& fault : in_file(read.faults(), file)) faults.push_back(std::move(fault));
+  if (!read.ok()) append(faults, in_file(read.faults(), file));
   return faults;
 }
 

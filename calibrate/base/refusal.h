@@ -1,6 +1,5 @@
 #pragma once
 
-#include <iterator>
 #include <utility>
 
 #include "core/result.h"
@@ -25,15 +24,6 @@ template <class T>
 T value_or_throw(Result<T> result, int status = kBadInput) {
   if (!result.ok()) throw Refusal{result.faults(), status};
   return std::move(result).value();
-}
-
-/// Collects faults, to report all of them together.
-inline void append(Faults& faults, Faults more) {
-  faults.insert(faults.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
-template <class T>
-void append(Faults& faults, const Result<T>& result) {
-  if (!result.ok()) append(faults, result.faults());
 }
 
 }  // namespace pastefit

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
@@ -57,6 +58,15 @@ std::string wrapped(std::string_view text, std::size_t columns = 80);
 
 /// `what` of the fault of an unknown key, which does not affect other values.
 inline constexpr std::string_view unknown_key = "unknown key";
+
+/// Collects faults, to report all of them together.
+inline void append(Faults& faults, Faults more) {
+  faults.insert(faults.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+template <class T>
+void append(Faults& faults, const Result<T>& result) {
+  if (!result.ok()) append(faults, result.faults());
+}
 
 /// Prefixes the place of each fault with the file name: "mix.json: measurements.step1.height_mm"; unchanged without a
 /// name.

@@ -39,10 +39,8 @@ Result<std::vector<BatchStudy>> read_batch(const std::vector<std::string>& files
       faults.push_back({file, "has the name \"" + name + "\" in this batch, as " + first->second + " has",
                         "give each study once, and each under another name of its file or folder"});
     auto study = read_study(file);
-    if (!study.ok())
-      for (const Fault& fault : study.faults()) faults.push_back(fault);
-    else if (is_new)
-      batch.push_back({name, file, out / name, std::move(study).value()});
+    append(faults, study);
+    if (study.ok() && is_new) batch.push_back({name, file, out / name, std::move(study).value()});
   }
   if (!faults.empty()) return faults;
   return batch;

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/json_reader.h"
-#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/study/apparatus.h"

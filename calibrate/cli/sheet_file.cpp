@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "calibrate/base/input_file.h"
-#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 
 namespace pastefit {

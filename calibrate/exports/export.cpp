@@ -221,7 +221,7 @@ Result<Export> export_card(const Card& card, const Exporter& exporter, const Exp
   if (!request.application.empty() && !exporter.takes_applications)
     faults.push_back({"--application", "has no deck for " + std::string(exporter.name), "--to liggghts"});
   auto answer = scene.ok() ? exporter.write(scene.value()) : scene.faults();
-  if (!answer.ok()) faults.insert(faults.end(), answer.faults().begin(), answer.faults().end());
+  append(faults, answer);
   if (!faults.empty()) return faults;
   Export written = std::move(answer).value();
   if (const SlumpTest* slump = scene.value().slump();

@@ -205,8 +205,7 @@ Result<Readings> read_heaps(const Test& test, std::optional<std::uint64_t> packi
   if (!faults.empty()) return faults;
   faults = misplaced("the filled mould", filled, *packing);
   for (std::size_t step = 0; step < heaps.size(); ++step)
-    for (Fault& fault : misplaced("the heap of step " + std::to_string(step + 1), heaps[step], *packing))
-      faults.push_back(std::move(fault));
+    append(faults, misplaced("the heap of step " + std::to_string(step + 1), heaps[step], *packing));
   if (!faults.empty()) return faults;
   const Ruler ruler(exported, packing->roughness_m, filled);
   Readings readings;

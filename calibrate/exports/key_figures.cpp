@@ -139,7 +139,7 @@ Result<KeyFigures> read_key_figures(const fs::path& folder) {
       continue;
     }
     auto table = read_table(run / kFigureFile);
-    if (!table.ok()) faults.insert(faults.end(), table.faults().begin(), table.faults().end());
+    append(faults, table);
     if (!table.ok()) continue;
     found.runs.push_back(run == folder ? "." : run.filename().string());
     all.push_back(figures_of(table.value()));

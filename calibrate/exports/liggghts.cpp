@@ -238,7 +238,7 @@ Result<Export> export_liggghts(const ExportScene& scene) {
       kAllRolling};
   if (card.normal != NormalLaw::hertz) known.attraction = {BridgeShape::none};  // only one cohesion model at a time
   Faults faults = unknown_laws(card, known);
-  for (Fault& fault : beyond_limits(scene)) faults.push_back(std::move(fault));
+  append(faults, beyond_limits(scene));
   if (!faults.empty()) return faults;
   const Written written = law_for_liggghts(scene);
   if (faults = too_fast(scene, written.time_step_s); !faults.empty()) return faults;

@@ -12,7 +12,6 @@
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/machine.h"
-#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/measurement.h"

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "calibrate/base/json_reader.h"
-#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/apparatus.h"

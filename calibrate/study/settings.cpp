@@ -113,7 +113,7 @@ Result<Study> read_study_with(const std::filesystem::path& file, const std::vect
     study.value().settings = texts;
     return study;
   }
-  if (!study.ok()) faults.insert(faults.end(), study.faults().begin(), study.faults().end());
+  append(faults, study);
   return faults;
 }
 

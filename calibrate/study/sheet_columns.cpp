@@ -191,7 +191,7 @@ Faults faults_of_heads(std::span<const SheetColumn> columns) {
       faults.push_back({where, "says what another column says", "one of both columns"});
     const auto later = columns.subspan(i + 1);
     if (!once && std::ranges::count(later, column.is, &SheetColumn::is) == 0)
-      for (Fault& fault : faults_of_repeats(columns, column)) faults.push_back(std::move(fault));
+      append(faults, faults_of_repeats(columns, column));
   }
   return faults;
 }

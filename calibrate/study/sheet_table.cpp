@@ -206,7 +206,7 @@ SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& fa
     return table;
   }
   take_units(*layout);
-  for (Fault& fault : faults_of_heads(layout->columns)) faults.push_back(std::move(fault));
+  append(faults, faults_of_heads(layout->columns));
   for (const SheetColumn& column : layout->columns)
     if (!column.mix.empty())
       table.mix.push_back(column.head);
@@ -215,7 +215,7 @@ SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& fa
   for (std::size_t i = layout->first; i < layout->lines.size() && table.rows.size() < most_samples; ++i) {
     const CsvLine& line = layout->lines[i];
     if (std::ranges::all_of(line.cells, is_missing)) continue;
-    for (Fault& fault : misplaced_cells(*layout, line)) faults.push_back(std::move(fault));
+    append(faults, misplaced_cells(*layout, line));
     SheetRow row = row_from(*layout, line, defaults, faults);
     if (is_of_statistics(row.sheet.title))
       table.statistics.push_back(line.number);
@@ -228,7 +228,7 @@ SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& fa
     faults.push_back({"", "has " + std::to_string(most_columns) + " columns or more", "the columns of a sheet alone"});
   if (table.rows.size() == most_samples)
     faults.push_back({"", "has " + std::to_string(most_samples) + " samples or more", "several tables"});
-  for (Fault& fault : faults_of_names(table.rows)) faults.push_back(std::move(fault));
+  append(faults, faults_of_names(table.rows));
   if (table.rows.empty())
     faults.push_back({"", "has no row with a reading", "one row per sample below the header row"});
   return table;

@@ -9,7 +9,6 @@
 
 #include "calibrate/base/embedded_text.h"
 #include "calibrate/base/json_reader.h"
-#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/slump.h"

@@ -160,7 +160,7 @@ Result<Study> study_from_json(json document, const std::filesystem::path& file, 
   }
   if (found.empty() && in_labs.empty()) found = validate_points(study);
   Faults faults = in_file(std::move(found), file);
-  faults.insert(faults.end(), in_labs.begin(), in_labs.end());
+  append(faults, std::move(in_labs));
   if (!faults.empty()) return faults;
   study.content = document.dump();
   study.hash = content_hash(study.content);
@@ -173,7 +173,7 @@ Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& 
   if (!document) return faults;
   Result<Study> study = study_from_json(std::move(*document), file, changes);
   if (study.ok() && faults.empty()) return study;
-  if (!study.ok()) faults.insert(faults.end(), study.faults().begin(), study.faults().end());
+  append(faults, study);
   return faults;
 }
 

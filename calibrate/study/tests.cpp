@@ -4,7 +4,6 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/schemas.h"

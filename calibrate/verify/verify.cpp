@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 #include "core/step/run.h"
 
