@@ -12,7 +12,6 @@
 #include "calibrate/evaluate/study_scoring.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
-#include "calibrate/study/tolerance.h"
 
 namespace pastefit {
 

@@ -5,7 +5,6 @@
 #include "calibrate/evaluate/record.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
-#include "calibrate/study/tolerance.h"
 
 namespace pastefit {
 

@@ -12,7 +12,7 @@
 
 #include "calibrate/base/statistics.h"
 #include "calibrate/study/study.h"
-#include "calibrate/study/tolerance.h"
+#include "calibrate/study/tests.h"
 #include "calibrate/study/unstated_conditions.h"
 #include "core/observe/readings.h"
 

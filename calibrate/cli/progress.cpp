@@ -10,7 +10,6 @@
 #include "calibrate/base/text.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/study/tests.h"
-#include "calibrate/study/tolerance.h"
 
 namespace pastefit {
 

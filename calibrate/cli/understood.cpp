@@ -12,7 +12,6 @@
 #include "calibrate/inference/description.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
-#include "calibrate/study/tolerance.h"
 
 namespace pastefit {
 

@@ -12,7 +12,7 @@
 #include "calibrate/base/statistics.h"
 #include "calibrate/judge/verdict.h"
 #include "calibrate/optimisers/problem.h"
-#include "calibrate/study/tolerance.h"
+#include "calibrate/study/tests.h"
 #include "core/result.h"
 
 namespace pastefit {

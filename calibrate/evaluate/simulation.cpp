@@ -14,7 +14,6 @@
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
-#include "calibrate/study/tolerance.h"
 
 namespace pastefit {
 

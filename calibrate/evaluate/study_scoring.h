@@ -8,7 +8,6 @@
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"
-#include "calibrate/study/tolerance.h"
 #include "core/result.h"
 
 namespace pastefit {

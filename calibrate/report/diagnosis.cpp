@@ -12,7 +12,7 @@
 #include "calibrate/inference/description.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/study/parameters.h"
-#include "calibrate/study/tolerance.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit {
 

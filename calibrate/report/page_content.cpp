@@ -9,7 +9,7 @@
 #include "calibrate/report/summary.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/parameters.h"
-#include "calibrate/study/tolerance.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit {
 

@@ -11,7 +11,7 @@
 #include "calibrate/report/page_content.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/parameters.h"
-#include "calibrate/study/tolerance.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit {
 

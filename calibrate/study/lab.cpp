@@ -12,7 +12,7 @@
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/schemas.h"
-#include "calibrate/study/tolerance.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit {
 

@@ -78,7 +78,7 @@ std::vector<Parameter> default_parameters();
 struct Target {
   std::string reading;
   double weight = 1;                               ///< in the fit; 0: reported, not fitted
-  std::optional<double> tolerance = std::nullopt;  ///< in the reading's unit; none: see `calibrate/study/tolerance.h`
+  std::optional<double> tolerance = std::nullopt;  ///< in the reading's unit; none: see `calibrate/study/tests.h`
 };
 
 struct SearchOptions {

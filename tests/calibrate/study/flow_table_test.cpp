@@ -8,7 +8,7 @@
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/slump_sheet.h"
-#include "calibrate/study/tolerance.h"
+#include "calibrate/study/tests.h"
 #include "core/apparatus/slump/slump_test.h"
 #include "tests/calibrate/files.h"
 #include "tests/calibrate/study/desk.h"
