@@ -39,10 +39,6 @@ bool has_parameter(const Card& card, std::string_view name) {
          std::ranges::any_of(card.tests, [&](const CardTest& test) { return acts_in(test.test, name); });
 }
 
-std::string reading_name(const CardTest& test, std::string_view reading) {
-  return (test.name.empty() ? "" : test.name + "/") + std::string(reading);
-}
-
 std::string heading_of(const CardTest& test) {
   return test.name.empty() ? "" : "Test " + test.name + ": ";
 }

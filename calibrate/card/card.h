@@ -80,9 +80,6 @@ struct Card;
 /// True if the material has the parameter: its laws use it, or for a surface parameter one of its tests.
 bool has_parameter(const Card& card, std::string_view name);
 
-/// "slow/step1.height_mm", as in a study of several tests; the reading's own name if the test has no name.
-std::string reading_name(const CardTest& test, std::string_view reading);
-
 /// "Test slow: ", for messages; empty if the test has no name.
 std::string heading_of(const CardTest& test);
 

@@ -101,10 +101,6 @@ void read_one_of_many(ObjectReader& reader, const LabReading& labs, const std::v
 
 }  // namespace
 
-std::string reading_name(const StudyTest& test, std::string_view reading) {
-  return (test.name.empty() ? "" : test.name + "/") + std::string(reading);
-}
-
 std::vector<std::size_t> tests_of(const Study& study, bool hold_out) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < study.tests.size(); ++i)

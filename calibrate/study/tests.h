@@ -24,8 +24,11 @@ struct StudyReading {
   double tolerance = 1;  ///< in the reading's unit (`tolerance_of`)
 };
 
-/// Name of a reading in a study with several tests, "slow/step1.height_mm"; without prefix if the test has no name.
-std::string reading_name(const StudyTest& test, std::string_view reading);
+/// Name of a reading in a study or card with several tests, "slow/step1.height_mm"; without prefix if the test has no
+/// name.
+std::string reading_name(const auto& test, std::string_view reading) {
+  return (test.name.empty() ? "" : test.name + "/") + std::string(reading);
+}
 
 /// Measurements of the fitted tests, in order.
 std::vector<StudyReading> readings_of(const Study& study);
