@@ -13,6 +13,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "core/result.h"
 
@@ -40,6 +41,14 @@ inline std::string exact(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
   return {text, end};
+}
+
+/// The number that a whole text is; nothing for other texts, and for numbers beyond the type's range.
+template <class Number>
+std::optional<Number> parsed_number(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
 /// Rounds to significant digits, which shortens the JSON of drawn points.

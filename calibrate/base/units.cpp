@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 
 #include "calibrate/base/text.h"
@@ -137,9 +136,9 @@ std::optional<WrittenNumber> written_number(std::string_view text) {
     out.comma = true;
     number[comma] = '.';
   }
-  const char *const first = number.data(), *const last = first + number.size();
-  const auto read = std::from_chars(first, last, out.value);
-  if (number.empty() || read.ec != std::errc() || read.ptr != last || !std::isfinite(out.value)) return std::nullopt;
+  const auto value = parsed_number<double>(number);
+  if (!value || !std::isfinite(*value)) return std::nullopt;
+  out.value = *value;
   if (word.empty()) return out;
   out.unit = unit_of_word(word);
   return out.unit ? std::optional(out) : std::nullopt;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -26,11 +25,8 @@ template <class Number>
 CLI::Validator number_within(std::string right, Number smallest, Number largest) {
   return CLI::Validator(
       [right = std::move(right), smallest, largest](std::string& text) -> std::string {
-        Number number{};
-        const char* const end = text.data() + text.size();
-        const auto read = std::from_chars(text.data(), end, number);
-        const bool whole = read.ec == std::errc() && read.ptr == end;
-        return whole && number >= smallest && number <= largest ? "" : "is " + in_quotes(text) + "; give " + right;
+        const auto number = parsed_number<Number>(text);
+        return number && *number >= smallest && *number <= largest ? "" : "is " + in_quotes(text) + "; give " + right;
       },
       "");
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -96,12 +95,11 @@ class DumpReader {
 
   void read_count(std::string_view line) {
     const auto words = columns_of_line(line);
-    std::size_t count = 0;
-    if (words.size() != 1 ||
-        std::from_chars(words[0].data(), words[0].data() + words[0].size(), count).ptr != words[0].end())
+    const auto count = words.size() == 1 ? parsed_number<std::size_t>(words[0]) : std::nullopt;
+    if (!count)
       fault("is not a number of atoms", "a whole number");
     else
-      count_ = count;
+      count_ = *count;
   }
 
   void read_grain(const std::vector<std::string_view>& words) {
@@ -112,10 +110,10 @@ class DumpReader {
     std::array<double, kDumpColumns.size()> grain{};
     for (std::size_t i = 0; i < grain.size(); ++i) {
       const std::string_view word = words[places_[i]];
-      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), grain[i]);
+      const auto number = parsed_number<double>(word);
       const std::string column(kDumpColumns[i]);
-      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(grain[i]))
-        return fault(column + " is " + in_quotes(word), "a finite number");
+      if (!number || !std::isfinite(*number)) return fault(column + " is " + in_quotes(word), "a finite number");
+      grain[i] = *number;
       if (i == 0 && (grain[i] < 1 || grain[i] != std::floor(grain[i]) || grain[i] > 1e15))
         return fault("id is " + in_quotes(word), "a whole number from 1");
       if (i > 0 && std::abs(grain[i]) > kFarthest)

@@ -1,7 +1,6 @@
 #include "calibrate/store/checkpoint.h"
 
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -68,11 +67,10 @@ Result<RunState> Checkpoint::read() const {
   const std::string wall(next_line(left)), hash(next_line(left));
   if (content_hash(wall + "\n" + std::string(left)) != hash || left.empty())
     return fault("is damaged: its state is not what was written", kAnew);
-  double wall_s = 0;
-  const auto [end, problem] = std::from_chars(wall.data(), wall.data() + wall.size(), wall_s);
-  if (problem != std::errc() || end != wall.data() + wall.size() || !(wall_s >= 0 && wall_s <= kLongest_s))
+  const auto wall_s = parsed_number<double>(wall);
+  if (!wall_s || !(*wall_s >= 0 && *wall_s <= kLongest_s))
     return fault("is damaged: the time it has taken is not a number of seconds", kAnew);
-  return RunState{std::string(left), wall_s};
+  return RunState{std::string(left), *wall_s};
 }
 
 Faults Checkpoint::write(const RunState& state) const {

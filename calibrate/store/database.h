@@ -1,12 +1,12 @@
 #pragma once
 
-#include <charconv>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
+
+#include "calibrate/base/text.h"
 
 struct sqlite3;
 
@@ -18,11 +18,9 @@ using Row = std::vector<std::string>;
 /// range.
 template <class Number>
 Number whole_number_of(const std::string& text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw std::runtime_error("what should be a whole number is none");
-  return number;
+  const auto number = parsed_number<Number>(text);
+  if (!number) throw std::runtime_error("what should be a whole number is none");
+  return *number;
 }
 
 /// `read`: works on files that cannot be written, e.g. in a read-only folder.

@@ -1,7 +1,6 @@
 #include "calibrate/study/settings.h"
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 #include <regex>
 #include <string_view>
@@ -21,12 +20,10 @@ json* step_into(json& place, const std::string& step) {
   if (!place.is_object() || step.empty()) return nullptr;
   const auto bracket = step.find('[');
   if (bracket == std::string::npos) return &place[step];
-  std::size_t index = 0;
-  const char *const first = step.data() + bracket + 1, *const last = step.data() + step.size();
-  const auto [end, error] = std::from_chars(first, last, index);
   const auto list = place.find(step.substr(0, bracket));
-  const bool is_index = error == std::errc() && end + 1 == last && *end == ']';
-  return is_index && list != place.end() && list->is_array() && index < list->size() ? &(*list)[index] : nullptr;
+  if (!step.ends_with(']') || list == place.end() || !list->is_array()) return nullptr;
+  const auto index = parsed_number<std::size_t>(step.substr(bracket + 1, step.size() - bracket - 2));
+  return index && *index < list->size() ? &(*list)[*index] : nullptr;
 }
 
 /// Fault of a bound that the study does not have.
