@@ -200,6 +200,17 @@ class ObjectReader {
   Names known_;
 };
 
+/// Reads a document of this format by `body(ObjectReader&)`. Returns every fault, with its place.
+Faults read_document(const nlohmann::json& document, std::string_view format, auto body) {
+  Faults faults;
+  if (has_format(document, format, faults)) {
+    ObjectReader reader(document, "", faults);
+    reader.known("format");
+    body(reader);
+  }
+  return faults;
+}
+
 /// `entries` whose values are objects, each described by `body(fields, one)`.
 void named_objects(auto& fields, const Key& key, auto& list, auto name, auto when, auto body) {
   fields.entries(key, list, name, when, [&](auto& entries, const Key& own, auto& one) {

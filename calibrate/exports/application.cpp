@@ -193,18 +193,15 @@ std::pair<Vec3, Vec3> Application::bounds() const {
 Result<Application> read_application(const std::filesystem::path& asked, const WallContact& usual) {
   const std::filesystem::path file = application_file(asked);
   return read_file(file, [&](const nlohmann::json& document) -> Result<Application> {
-    Faults faults;
-    if (!has_format(document, "pastefit-application-1", faults)) return faults;
     Application application;
-    {
-      ObjectReader reader(document, "", faults);
-      reader.known("format");
+    const Faults found = read_document(document, "pastefit-application-1", [&](ObjectReader& reader) {
+      const Faults& faults = reader.faults();
       describe_application(reader, application, [&](MachinePart& part) { part.contact = usual; });
       for (MachinePart& part : application.parts) complete_part(reader, part, file.parent_path());
       if (faults.empty()) check_planes(reader, application);
       if (faults.empty()) check_times(reader, application);
-    }
-    if (!faults.empty()) return faults;
+    });
+    if (!found.empty()) return found;
     return application;
   });
 }

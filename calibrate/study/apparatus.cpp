@@ -289,12 +289,9 @@ void read_grains(ObjectReader& document, Test& test, Need need) {
 }
 
 Result<Apparatus> apparatus_from_json(const json& document) {
-  Faults faults;
-  if (!has_format(document, "pastefit-rig-1", faults)) return faults;
   Apparatus apparatus;
-  {
-    ObjectReader reader(document, "", faults);
-    reader.known("format");
+  const Faults found = read_document(document, "pastefit-rig-1", [&](ObjectReader& reader) {
+    Faults& faults = reader.faults();
     reader.text("title", apparatus.title, Need::required);
     Provenance unused;
     read_provenance(reader, unused);
@@ -311,8 +308,8 @@ Result<Apparatus> apparatus_from_json(const json& document) {
       read_customary(reader, apparatus);  // the possible readings depend on the apparatus
     else
       reader.known("readings");
-  }
-  if (!faults.empty()) return faults;
+  });
+  if (!found.empty()) return found;
   json simulated = document;
   for (const char* key : not_simulated) simulated.erase(key);
   apparatus.content = simulated.dump();

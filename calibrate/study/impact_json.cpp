@@ -197,16 +197,12 @@ void read_impact(ObjectReader& reader, Impact& test) {
 }
 
 Result<Impact> impact_from_json(const json& document) {
-  Faults faults;
-  if (!has_format(document, "pastefit-impact-1", faults)) return faults;
   Impact test;
-  {
-    ObjectReader reader(document, "", faults);
+  const Faults faults = read_document(document, "pastefit-impact-1", [&](ObjectReader& reader) {
     std::string title;
-    reader.known("format");
     reader.text("title", title, Need::optional);
     read_impact(reader, test);
-  }
+  });
   if (!faults.empty()) return faults;
   return test;
 }

@@ -157,13 +157,10 @@ std::string sheared_in_words(const Lab::Repeats& repeats) {
 }
 
 Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem::path& folder) {
-  Faults faults;
-  if (!has_format(document, "pastefit-lab-1", faults)) return faults;
   Lab lab;
   std::optional<Apparatus> preset;
-  {
-    ObjectReader reader(document, "", faults);
-    reader.known("format");
+  const Faults found = read_document(document, "pastefit-lab-1", [&](ObjectReader& reader) {
+    Faults& faults = reader.faults();
     reader.text("title", lab.title, Need::required);
     read_provenance(reader, lab.provenance);
     std::vector<std::string> assumed;
@@ -195,8 +192,8 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     for (std::string& note : notes_on_conditions(lab)) lab.notes.push_back(std::move(note));
     if (lab.yield_stress && faults.empty()) lab.notes.push_back(note_on_yield_stress(lab));
     if (lab.repeats.sheared > 0) lab.notes.push_back(sheared_in_words(lab.repeats));
-  }
-  if (!faults.empty()) return faults;
+  });
+  if (!found.empty()) return found;
   if (preset) lab.note = note_on_preset(*preset);
   if (preset)
     if (std::string caution = caution_of(*preset, lab.test); !caution.empty()) lab.notes.push_back(std::move(caution));

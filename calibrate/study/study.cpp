@@ -143,12 +143,9 @@ std::vector<Parameter> default_parameters() {
 
 Result<Study> study_from_json(json document, const std::filesystem::path& file, const StudyChanges& changes) {
   if (changes.of_study) changes.of_study(document);
-  Faults found;
   Faults in_labs;
   Study study;
-  if (has_format(document, "pastefit-study-1", found)) {
-    ObjectReader reader(document, "", found);
-    reader.known("format");
+  Faults found = read_document(document, "pastefit-study-1", [&](ObjectReader& reader) {
     reader.text("title", study.title, Need::required);
     study.tests = read_tests(reader, {file.parent_path(), changes.of_lab, in_labs});
     const ContactModel laws = read_contact(reader);
@@ -157,7 +154,7 @@ Result<Study> study_from_json(json document, const std::filesystem::path& file, 
     study.search.rejected_share = rejected_share_of_labs(study.tests, study.search.rejected_share);
     read_search_options(reader, static_cast<int>(std::max<std::size_t>(1, tests_of(study, false).size())),
                         study.search);
-  }
+  });
   if (found.empty() && in_labs.empty()) found = validate_points(study);
   Faults faults = in_file(std::move(found), file);
   append(faults, std::move(in_labs));

@@ -224,11 +224,7 @@ void read_grid(ObjectReader& reader, const json& document, std::vector<Point>& p
 
 Result<Case> case_from_json(const json& document) {
   Case test;
-  Faults faults;
-  if (!has_format(document, "pastefit-case-1", faults)) return faults;
-  {
-    ObjectReader reader(document, "", faults);
-    reader.known("format");
+  const Faults faults = read_document(document, "pastefit-case-1", [&](ObjectReader& reader) {
     reader.text("title", test.title, Need::required);
     reader.text("source", test.source, Need::required);
     reader.known("scene");
@@ -240,7 +236,7 @@ Result<Case> case_from_json(const json& document) {
     if (test.points.empty()) test.points.emplace_back();
     read_grid(reader, document, test.points);
     reader.list("checks", test.checks, Need::required, read_check);
-  }
+  });
   if (!faults.empty()) return faults;
   return test;
 }
