@@ -4,6 +4,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "core/result.h"
 
 namespace pastefit {
 
@@ -40,5 +43,13 @@ struct WrittenNumber {
 
 /// Parses a typed number; nothing if it is invalid or its unit unknown.
 std::optional<WrittenNumber> written_number(std::string_view text);
+
+/// Parses "180, 175, 190 mm" or "7 1/4 in" in the unit of the key: numbers separated by commas with a space, by
+/// semicolons or by spaces; a unit at the end applies to all. Errors: not a number, with a suggestion; a comma without
+/// a space; a unit of another quantity, or of some numbers only.
+Result<std::vector<double>> written_readings(const std::string& where, const std::string& text, std::string_view unit);
+
+/// Replaces "percent" and "per cent" by "%".
+std::string with_percent_sign(const std::string& text);
 
 }  // namespace pastefit

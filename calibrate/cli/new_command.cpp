@@ -11,13 +11,13 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
+#include "calibrate/base/units.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/sheet_file.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/cli/understood.h"
 #include "calibrate/study/slump_sheet.h"
-#include "calibrate/study/written_readings.h"
 
 namespace pastefit {
 

@@ -9,7 +9,6 @@
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/sheet_table.h"
-#include "calibrate/study/written_readings.h"
 
 namespace pastefit {
 namespace {

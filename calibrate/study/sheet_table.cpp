@@ -10,7 +10,6 @@
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/study/written_readings.h"
 
 namespace pastefit {
 namespace {

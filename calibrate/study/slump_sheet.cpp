@@ -14,7 +14,6 @@
 #include "calibrate/laboratory/slump.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
-#include "calibrate/study/written_readings.h"
 #include "core/apparatus/reading_kind.h"
 
 namespace pastefit {

@@ -1,5 +1,3 @@
-#include "calibrate/study/written_readings.h"
-
 #include <algorithm>
 #include <array>
 #include <optional>
