@@ -11,7 +11,7 @@
 #include "calibrate/study/impact_json.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/parameters.h"
-#include "calibrate/study/settings.h"
+#include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {

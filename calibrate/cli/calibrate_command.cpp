@@ -26,7 +26,7 @@
 #include "calibrate/report/summary.h"
 #include "calibrate/store/output_folder.h"
 #include "calibrate/store/program.h"
-#include "calibrate/study/settings.h"
+#include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {

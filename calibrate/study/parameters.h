@@ -60,6 +60,9 @@ bool acts_in(const Test& test, std::string_view name);
 /// Fault of a given parameter of a surface that no test has. Requirement: `acts_in` is false for every test.
 Fault surface_of_no_test(std::string place, std::string_view name);
 
+/// Fault of a name that no parameter has.
+Fault no_such_parameter(std::string where, std::string_view name);
+
 /// Fault of a given parameter that no law of the contact uses. Requirement: `has_parameter` is false.
 Fault foreign_parameter(const ContactModel& laws, std::string place, std::string_view name);
 

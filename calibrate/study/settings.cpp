@@ -1,5 +1,3 @@
-#include "calibrate/study/settings.h"
-
 #include <algorithm>
 #include <functional>
 #include <regex>

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -136,5 +136,24 @@ Result<Study> study_from_json(nlohmann::json document, const std::filesystem::pa
 
 /// Reads a laboratory file with its apparatus preset, after applying `change` to its content, if given.
 Result<Lab> read_lab(const std::filesystem::path& file, const std::function<void(nlohmann::json&)>& change = {});
+
+/// Change of a file's content before it is read, so that all checks of its reader apply.
+struct Setting {
+  std::string path;  ///< of keys, as in the file: "search.seed", "tests[0].lab"
+  nlohmann::json value;
+};
+
+/// Parses texts "path=value", as given to --set. A value that is not JSON is a text. Errors: no path; control
+/// characters, or bytes that are not UTF-8.
+std::vector<Setting> read_settings(const std::vector<std::string>& texts, Faults& faults);
+
+/// Sets the value at its path. New keys are added: the reader of the file reports unknown ones. Error: the path does
+/// not lead to a place in the file.
+void apply(const Setting& setting, nlohmann::json& document, Faults& faults);
+
+/// Reads a study with changes of its file's content ("path=value"), which `Study::settings` keeps.
+/// `parameters.NAME.lower` and `parameters.NAME.upper` are the bounds of a free parameter. A changed study has another
+/// hash than its file. Errors: those of `read_settings`, `apply` and `read_study`.
+Result<Study> read_study_with(const std::filesystem::path& file, const std::vector<std::string>& texts);
 
 }  // namespace pastefit

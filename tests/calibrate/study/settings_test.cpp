@@ -1,4 +1,4 @@
-#include "calibrate/study/settings.h"
+#include "calibrate/study/study.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
