@@ -104,12 +104,10 @@ Result<Study> read_study_with(const std::filesystem::path& file, const std::vect
     for (const Setting& setting : settings) apply_to_study(setting, study, faults);
   };
   Result<Study> study = read_study(file, changes);
-  if (study.ok() && faults.empty()) {
-    study.value().settings = texts;
-    return study;
-  }
   append(faults, study);
-  return faults;
+  if (!faults.empty()) return faults;
+  study.value().settings = texts;
+  return study;
 }
 
 }  // namespace pastefit
