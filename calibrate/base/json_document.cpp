@@ -192,9 +192,8 @@ std::optional<json> parse_json(std::string_view text, Faults& faults) {
 }
 
 std::optional<json> read_json(const std::filesystem::path& file, Faults& faults) {
-  const auto text = read_input(file, {.remedy = "give a file of pastefit", .ending = ".json"});
-  append(faults, text);
-  if (!text.ok()) return std::nullopt;
+  const auto text = value_or_append(read_input(file, {.remedy = "give a file of pastefit", .ending = ".json"}), faults);
+  if (!text) return std::nullopt;
   Faults found;
   std::optional<json> document = parse_json(text.value(), found);
   if (!document)

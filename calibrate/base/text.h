@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "core/result.h"
 
@@ -72,9 +73,13 @@ inline constexpr std::string_view unknown_key = "unknown key";
 inline void append(Faults& faults, Faults more) {
   faults.insert(faults.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
+
+/// The value of a result, or nothing after collecting its faults.
 template <class T>
-void append(Faults& faults, const Result<T>& result) {
-  if (!result.ok()) append(faults, result.faults());
+std::optional<T> value_or_append(Result<T> result, Faults& faults) {
+  if (result.ok()) return std::move(result).value();
+  append(faults, result.faults());
+  return std::nullopt;
 }
 
 /// Prefixes the place of each fault with the file name: "mix.json: measurements.step1.height_mm"; unchanged without a

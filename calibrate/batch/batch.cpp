@@ -38,9 +38,8 @@ Result<std::vector<BatchStudy>> read_batch(const std::vector<std::string>& files
     if (!is_new)
       faults.push_back({file, "has the name \"" + name + "\" in this batch, as " + first->second + " has",
                         "give each study once, and each under another name of its file or folder"});
-    auto study = read_study(file);
-    append(faults, study);
-    if (study.ok() && is_new) batch.push_back({name, file, out / name, std::move(study).value()});
+    auto study = value_or_append(read_study(file), faults);
+    if (study && is_new) batch.push_back({name, file, out / name, std::move(study).value()});
   }
   if (!faults.empty()) return faults;
   return batch;

@@ -110,14 +110,10 @@ ordered_json new_files(const json& request) {
 /// {"files": [{"name", "text"}, ...], "notes"} of {"card", "target", "test", "unconfirmed"}: as `pastefit export`.
 ordered_json exported(const json& request) {
   Faults faults;
-  const auto exporter = exporter_named(request.at("target").get<std::string>());
-  append(faults, exporter);
+  const auto exporter = value_or_append(exporter_named(request.at("target").get<std::string>()), faults);
   std::optional<Card> card;
-  if (const auto document = parse_json(request.at("card").get<std::string>(), faults)) {
-    auto read = card_from_json(*document);
-    append(faults, read);
-    if (read.ok()) card = std::move(read).value();
-  }
+  if (const auto document = parse_json(request.at("card").get<std::string>(), faults))
+    card = value_or_append(card_from_json(*document), faults);
   refuse(faults);
   const Export written = value_or_throw(export_card(
       *card, exporter.value(),

@@ -97,9 +97,7 @@ Test with_parameters(const Test& test, std::vector<double> values, const SceneSe
 /// Index of the test with this name, of the first one if empty; none, and a fault, if there is none.
 std::optional<std::size_t> chosen(const auto& tests, const std::string& name, Faults& faults) {
   if (name.empty()) return 0;
-  const auto place = place_of_test(tests, name);
-  append(faults, place);
-  return place.ok() ? std::optional(place.value()) : std::nullopt;
+  return value_or_append(place_of_test(tests, name), faults);
 }
 
 /// Notes on a laboratory file for the user.
@@ -132,9 +130,8 @@ FoundScene study_scene(const json& document, const SceneSettings& settings, cons
     for (const auto& setting : settings.others)
       if (!is_of_study(setting)) apply(setting, lab, faults);
   };
-  const auto study = study_from_json(document, file, changes);
-  append(faults, study);
-  if (!study.ok()) return {};
+  const auto study = value_or_append(study_from_json(document, file, changes), faults);
+  if (!study) return {};
   const auto place = chosen(study.value().tests, name, faults);
   if (!place) return {};
   const Lab& lab = study.value().tests[*place].lab;
@@ -206,10 +203,9 @@ Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vect
   if (!document) (void)read_scene_settings(texts, faults);
   append(faults, std::move(unread));
   if (!document) return faults;
-  auto found = scene_from_json(*document, file, texts, name);
-  append(faults, found);
+  auto found = value_or_append(scene_from_json(*document, file, texts, name), faults);
   if (!faults.empty()) return faults;
-  return found;
+  return std::move(found).value();
 }
 
 Outcome simulate(const Scene& scene, const RunOptions& options) {

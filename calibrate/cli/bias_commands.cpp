@@ -172,8 +172,7 @@ void deliver(const ConfirmOptions& options, const Card& confirmed, const Further
 
 int confirm(const ConfirmOptions& options) {
   Faults faults = unusable_options(options);
-  const auto read = read_card(options.card);
-  append(faults, read);
+  const auto read = value_or_append(read_card(options.card), faults);
   refuse(faults);
   const Card& card = read.value();
   const Asked asked = asked_for(card, options);

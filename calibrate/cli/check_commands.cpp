@@ -76,9 +76,8 @@ int rebaseline_all(const CheckCommand& options) {
   if (options.why.empty())
     faults.push_back({"--rebaseline", "has no reason", "add --why TEXT: what changed, and why the change is correct"});
   for (const auto& file : options.cards) {
-    auto card = read_card(file);
-    append(faults, card);
-    if (!card.ok()) continue;
+    auto card = value_or_append(read_card(file), faults);
+    if (!card) continue;
     cards.push_back(std::move(card).value());
     append(faults, output_file_faults("--rebaseline", file, true));
   }

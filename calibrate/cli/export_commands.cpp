@@ -61,20 +61,18 @@ Result<std::vector<ExportFile>> files_of_materials(const Exporter& exporter, Exp
 
 int export_to_folder(const ExportOptions& options) {
   Faults faults;
-  const auto exporter = exporter_named(options.target);
-  append(faults, exporter);
-  const auto card = read_card(options.card);
-  append(faults, card);
+  const auto exporter = value_or_append(exporter_named(options.target), faults);
+  const auto card = value_or_append(read_card(options.card), faults);
   append(faults, output_folder_faults("--out", options.out));
   std::error_code error;
   if (!options.application.empty() &&
       fs::equivalent(options.out, fs::path(options.application).parent_path() / ".", error))
     faults.push_back({"--out " + options.out,
                       "is the folder of the application, whose surfaces the export would replace", "another folder"});
-  if (!exporter.ok() || !card.ok()) refuse(faults);
-  const auto written = options.materials ? files_of_materials(exporter.value(), options)
-                                         : files_of(card.value(), exporter.value(), options);
-  append(faults, written);
+  if (!exporter || !card) refuse(faults);
+  const auto written = value_or_append(options.materials ? files_of_materials(exporter.value(), options)
+                                                         : files_of(card.value(), exporter.value(), options),
+                                       faults);
   refuse(faults);
   const std::vector<ExportFile>& files = written.value();
 
@@ -187,22 +185,18 @@ nlohmann::ordered_json json_of(const std::vector<HeapReading>& readings, std::si
 
 int read_heap_of(const ReadOptions& options) {
   Faults faults;
-  const auto card = read_card(options.card);
-  append(faults, card);
+  const auto card = value_or_append(read_card(options.card), faults);
   std::vector<Particles> heaps;
-  for (const std::string& file : options.dumps) {
-    auto heap = read_dump(file);
-    append(faults, heap);
-    if (heap.ok()) heaps.push_back(std::move(heap).value());
-  }
+  for (const std::string& file : options.dumps)
+    if (auto heap = value_or_append(read_dump(file), faults)) heaps.push_back(std::move(*heap));
   const auto beside = fs::path(options.dumps[0]).parent_path() / "filled.dump";
   auto filled = read_dump(options.filled.empty() ? beside.string() : options.filled);
   if (!filled.ok() && options.filled.empty())
     for (Fault fault : filled.faults())
       faults.push_back(
           {std::move(fault.where), std::move(fault.what), "the deck writes it beside the heap; give it with --filled"});
-  else
-    append(faults, filled);
+  else if (!filled.ok())
+    append(faults, filled.faults());
   refuse(faults);
 
   const CardTest test = value_or_throw(test_to_export(card.value(), options.test));

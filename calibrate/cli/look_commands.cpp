@@ -47,11 +47,8 @@ struct CompareArguments {
 int run_compare(const CompareArguments& options) {
   std::vector<CardFile> cards;
   Faults faults;
-  for (const std::string& file : options.files) {
-    auto card = read_card(file);
-    append(faults, card);
-    if (card.ok()) cards.push_back({file, std::move(card).value()});
-  }
+  for (const std::string& file : options.files)
+    if (auto card = value_or_append(read_card(file), faults)) cards.push_back({file, std::move(*card)});
   refuse(std::move(faults));
   print(options.json ? json_text(comparison_json(cards)) : comparison_lines(cards));
   return kDone;

@@ -135,11 +135,9 @@ std::optional<std::string> text_of_workbook(const std::filesystem::path& file) {
 }  // namespace
 
 SheetTable read_sheet_table(const std::filesystem::path& file, const Sheet& defaults, Faults& faults) {
-  const auto bytes = read_input(file, {.remedy = "a table, saved as CSV or .xlsx", .ending = ".csv"});
-  if (!bytes.ok()) {
-    append(faults, bytes.faults());
-    return {};
-  }
+  const auto bytes =
+      value_or_append(read_input(file, {.remedy = "a table, saved as CSV or .xlsx", .ending = ".csv"}), faults);
+  if (!bytes) return {};
   const std::string_view start = bytes.value();
   const bool archive = start.starts_with("PK"), old_workbook = start.starts_with("\xD0\xCF\x11\xE0");
   const auto text = archive ? text_of_workbook(file) : std::optional(bytes.value());

@@ -220,8 +220,7 @@ Result<Export> export_card(const Card& card, const Exporter& exporter, const Exp
     if (Faults unsuited = put_into_application(scene.value(), request.application); !unsuited.empty()) scene = unsuited;
   if (!request.application.empty() && !exporter.takes_applications)
     faults.push_back({"--application", "has no deck for " + std::string(exporter.name), "--to liggghts"});
-  auto answer = scene.ok() ? exporter.write(scene.value()) : scene.faults();
-  append(faults, answer);
+  auto answer = value_or_append(scene.ok() ? exporter.write(scene.value()) : scene.faults(), faults);
   if (!faults.empty()) return faults;
   Export written = std::move(answer).value();
   if (const SlumpTest* slump = scene.value().slump();

@@ -138,9 +138,8 @@ Result<KeyFigures> read_key_figures(const fs::path& folder) {
       faults.push_back({run.string(), "has not been run", "liggghts -in in.application there"});
       continue;
     }
-    auto table = read_table(run / kFigureFile);
-    append(faults, table);
-    if (!table.ok()) continue;
+    auto table = value_or_append(read_table(run / kFigureFile), faults);
+    if (!table) continue;
     found.runs.push_back(run == folder ? "." : run.filename().string());
     all.push_back(figures_of(table.value()));
   }

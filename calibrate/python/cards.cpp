@@ -31,10 +31,8 @@ Card card_in(const std::string& text) {
 /// {"files": {name: content}, "notes": [...], "instructions"}; the notes are also one of the files.
 std::string export_json(const std::string& card_text, const std::string& target, const ExportRequest& request) {
   Faults faults;
-  const auto exporter = exporter_named(target);
-  append(faults, exporter);
-  const auto card = card_from_json(nlohmann::json::parse(card_text));
-  append(faults, card);
+  const auto exporter = value_or_append(exporter_named(target), faults);
+  const auto card = value_or_append(card_from_json(nlohmann::json::parse(card_text)), faults);
   refuse(std::move(faults));
   const Export written = value_or_throw(export_card(card.value(), exporter.value(), request));
   ordered_json out{{"files", ordered_json::object()}, {"notes", written.notes}, {"instructions", written.instructions}};

@@ -236,11 +236,8 @@ std::optional<Apparatus> read_apparatus(ObjectReader& document, Test& test, cons
     std::string name;
     if (folder) apparatus.known("preset");
     const bool named = folder && apparatus.has("preset");
-    if (named && apparatus.text("preset", name, Need::required)) {
-      Result<Apparatus> found = find_preset(name, *folder);
-      append(apparatus.faults(), found);
-      if (found.ok()) preset = std::move(found).value();
-    }
+    if (named && apparatus.text("preset", name, Need::required))
+      preset = value_or_append(find_preset(name, *folder), apparatus.faults());
     if (preset && preset->test.index() != test.index())
       apparatus.fault("preset", in_quotes(name) + " is an apparatus for another test", "name one for this test");
     else if (preset)

@@ -103,11 +103,10 @@ Result<Study> read_study_with(const std::filesystem::path& file, const std::vect
   changes.of_study = [&](json& study) {
     for (const Setting& setting : settings) apply_to_study(setting, study, faults);
   };
-  Result<Study> study = read_study(file, changes);
-  append(faults, study);
+  std::optional<Study> study = value_or_append(read_study(file, changes), faults);
   if (!faults.empty()) return faults;
-  study.value().settings = texts;
-  return study;
+  study->settings = texts;
+  return std::move(study).value();
 }
 
 }  // namespace pastefit

@@ -47,13 +47,6 @@ std::string reading_fault_place(std::string_view name) {
   return "reading " + printable(name);
 }
 
-/// The value, or nothing after appending the faults.
-template <class T>
-std::optional<T> taken(const Result<T>& result, Faults& faults) {
-  append(faults, result);
-  return result.ok() ? std::optional(result.value()) : std::nullopt;
-}
-
 /// Base, top and height of a mould [mm] from "200/100/300" or "8/4/12 in"; nothing for other texts.
 std::optional<std::vector<double>> lengths_in(std::string mould) {
   const bool three = std::ranges::count(mould, '/') == 2;
@@ -116,7 +109,7 @@ ordered_json grains_json(const Test& test, bool preset) {
 /// Grains of the sheet; default: those of the mould.
 ordered_json grains_json(const Sheet& sheet, const Test& test, Faults& faults) {
   if (sheet.grains.empty()) return grains_json(test, !lengths_in(sheet.mould));
-  const auto radii = taken(written_readings("grains", sheet.grains, "mm"), faults);
+  const auto radii = value_or_append(written_readings("grains", sheet.grains, "mm"), faults);
   if (!radii) return {};
   if (radii->size() == 1) return {{"distribution", "mono"}, {"radius_mm", radii->at(0)}};
   if (radii->size() == 2)
@@ -223,7 +216,7 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
       faults.push_back({reading_fault_place(name), "is given twice", "once, repeats as \"180, 175, 190\""});
       continue;
     }
-    const auto values = taken(values_of_reading(name, text, key, slump_of(test)), faults);
+    const auto values = value_or_append(values_of_reading(name, text, key, slump_of(test)), faults);
     if (!values) continue;
     const auto stated = deviation_in(sheet, key, faults);
     out[std::string(key)] = reading_json(*values, stated ? *stated : deviation_of(*kind, test, values->front()));
@@ -237,7 +230,7 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
 /// Yield stresses of a rheometer from the sheet; may be empty.
 std::vector<double> yield_stresses_in(const Sheet& sheet, Faults& faults) {
   if (sheet.yield_stress.empty()) return {};
-  const auto read = taken(written_readings("yield stress", sheet.yield_stress, "pa"), faults);
+  const auto read = value_or_append(written_readings("yield stress", sheet.yield_stress, "pa"), faults);
   if (!read) return {};
   if (std::ranges::all_of(*read, [](double pa) { return pa > 0; })) return *read;
   faults.push_back({"yield stress", "is not above 0", "in Pa, e.g. 520, or with its unit: \"0.52 kPa\""});
@@ -344,8 +337,8 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   Faults faults;
   const auto laws = laws_for(sheet.target, sheet.law);
   if (!laws) faults.push_back(no_such_laws(sheet.target, sheet.law));
-  const auto density = taken(written_readings("density", sheet.density, "kg_m3"), faults);
-  const auto test = taken(apparatus_of(sheet.mould, folder), faults);
+  const auto density = value_or_append(written_readings("density", sheet.density, "kg_m3"), faults);
+  const auto test = value_or_append(apparatus_of(sheet.mould, folder), faults);
   ordered_json measurements;
   if (test) measurements = measurements_of(sheet, *test, faults);
   const std::vector<double> stresses_pa = yield_stresses_in(sheet, faults);

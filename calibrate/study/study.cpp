@@ -168,10 +168,9 @@ Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& 
   Faults faults;
   std::optional<json> document = read_json(file, faults);
   if (!document) return faults;
-  Result<Study> study = study_from_json(std::move(*document), file, changes);
-  if (study.ok() && faults.empty()) return study;
-  append(faults, study);
-  return faults;
+  std::optional<Study> study = value_or_append(study_from_json(std::move(*document), file, changes), faults);
+  if (!faults.empty()) return faults;
+  return std::move(study).value();
 }
 
 ObjectSchema::Json study_schema() {

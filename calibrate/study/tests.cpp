@@ -74,9 +74,8 @@ void read_lab_of(ObjectReader& reader, const LabReading& labs, StudyTest& test) 
     auto lab = lab_from_json(document, labs.folder);
     return lab.ok() ? std::move(lab) : in_file(lab.faults(), reader.place("lab"));
   };
-  Result<Lab> lab = in_place ? read_in_place() : read_lab((labs.folder / test.lab_file).lexically_normal(), change);
-  append(labs.faults, lab);
-  if (lab.ok()) test.lab = std::move(lab).value();
+  Result<Lab> read = in_place ? read_in_place() : read_lab((labs.folder / test.lab_file).lexically_normal(), change);
+  if (auto lab = value_or_append(std::move(read), labs.faults)) test.lab = std::move(*lab);
 }
 
 /// Names are used before a slash in reading names, and in one line of a table.

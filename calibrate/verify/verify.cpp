@@ -88,13 +88,11 @@ Result<std::vector<CheckRow>> verify(const Case& test, const std::function<void(
   std::vector<CheckRow> rows;
   Faults faults;
   for (const Point& point : test.points) {
-    const auto scene = scene_at(test, point);
-    append(faults, scene);
+    const auto scene = value_or_append(scene_at(test, point), faults);
     if (!scene) continue;
     const Outcome outcome = simulate(scene.value());
     for (std::size_t c = 0; c < test.checks.size(); ++c) {
-      auto row = compared(test.checks[c], point, scene.value(), outcome);
-      append(faults, row);
+      auto row = value_or_append(compared(test.checks[c], point, scene.value(), outcome), faults);
       if (!row) continue;
       rows.push_back(std::move(row).value());
       rows.back().check = c;
@@ -166,8 +164,7 @@ Result<std::vector<VerifiedCase>> verify_cases(const std::vector<std::string>& n
   std::vector<VerifiedCase> cases;
   std::size_t points = 0;
   for (const fs::path& file : files) {
-    auto test = read_case(file);
-    append(faults, test);
+    auto test = value_or_append(read_case(file), faults);
     if (!test) continue;
     points += test.value().points.size();
     cases.push_back({file, std::move(test).value(), {}});
