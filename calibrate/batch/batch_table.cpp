@@ -55,8 +55,8 @@ ordered_json reading_columns(const Card& card) {
       if (!one.measured) continue;
       const std::string name = reading_name(test, one.name);
       out["measured_" + name] = *one.measured;
-      out["simulated_" + name] = one.simulated;
-      out["deviation_" + name] = one.simulated - *one.measured;
+      out["simulated_" + name] = one.simulated.mean;
+      out["deviation_" + name] = one.simulated.mean - *one.measured;
     }
   return out;
 }

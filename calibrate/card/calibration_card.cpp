@@ -22,7 +22,7 @@ std::vector<CardReading> card_readings(const Study& study, std::size_t index, co
     if (values.size() < runs.size()) continue;
     CardReading mean;
     mean.name = reading.name;
-    mean = simulated_now(std::move(mean), sample_of(values));
+    mean.simulated = sample_of(values);
     for (std::size_t i = 0; i < test.lab.measurements.size(); ++i) {
       const auto& measurement = test.lab.measurements[i];
       if (measurement.reading != reading.name) continue;
@@ -46,9 +46,8 @@ void judge(CardTest& test) {
   test.within_noise = !judged.empty();
   for (auto* reading : judged) {
     const Sample measured{reading->repeats, *reading->measured, reading->standard_deviation};
-    const Sample simulated{reading->packings, reading->simulated, reading->simulated_standard_deviation};
-    reading->band = unequal_band_of(measured, simulated, share);
-    test.within_noise = *test.within_noise && lie_within(*reading->band, reading->simulated, *reading->measured);
+    reading->band = unequal_band_of(measured, reading->simulated, share);
+    test.within_noise = *test.within_noise && lie_within(*reading->band, reading->simulated.mean, measured.mean);
   }
 }
 
@@ -81,7 +80,7 @@ Material material_of(const Study& study, const std::vector<double>& values, cons
   Material material{specimen.bulk_density_kg_m3, {}, specimen.grains, specimen.contact, study.parameters};
   for (std::size_t i = 0; i < values.size(); ++i) material.parameters[i].value = values[i];
   Readings means;
-  for (const auto& reading : first.readings) means.set(reading.name, reading.simulated);
+  for (const auto& reading : first.readings) means.set(reading.name, reading.simulated.mean);
   material.grain_density_kg_m3 =
       std::visit([&](const auto& test) { return grain_density_of(test, means); }, first.test);
   return material;

@@ -9,16 +9,9 @@
 
 namespace pastefit {
 
-CardReading simulated_now(CardReading reading, const Sample& sample) {
-  reading.simulated = sample.mean;
-  reading.simulated_standard_deviation = sample.standard_deviation;
-  reading.packings = sample.count;
-  return reading;
-}
-
 std::optional<double> standard_error(const CardReading& reading) {
-  if (reading.packings < 2) return std::nullopt;
-  return reading.simulated_standard_deviation / std::sqrt(static_cast<double>(reading.packings));
+  if (reading.simulated.count < 2) return std::nullopt;
+  return reading.simulated.standard_deviation / std::sqrt(static_cast<double>(reading.simulated.count));
 }
 
 std::vector<double> column_of(const std::vector<Baseline::Run>& runs, std::string_view name) {
@@ -46,7 +39,7 @@ std::string heading_of(const CardTest& test) {
 std::string packings_in_words(const Card& card, const CardTest& test) {
   const auto packings = static_cast<int>(card.confirmation.packings.size());
   int accepted = packings;
-  for (const CardReading& one : test.readings) accepted = std::min(accepted, one.packings);
+  for (const CardReading& one : test.readings) accepted = std::min(accepted, one.simulated.count);
   if (packings <= 1) return packings == 1 ? "one packing, error unknown" : "";
   const std::string of =
       (accepted < packings ? format("%d of ", accepted) : "") + format("the card's %d packings", packings);

@@ -20,22 +20,17 @@ namespace pastefit {
 
 /// One reading of the calibrated material, with the measurement if there is one.
 struct CardReading {
-  std::string name;                         ///< e.g. "step1.height_mm"; gives the unit of all below
-  double simulated = 0;                     ///< mean over the accepted packings (`accepted`)
-  double simulated_standard_deviation = 0;  ///< between packings
-  std::optional<double> measured;           ///< mean of the repeats; empty: not measured
-  double standard_deviation = 0;            ///< of one measurement
+  std::string name;                ///< e.g. "step1.height_mm"; gives the unit of all below
+  Sample simulated{1};             ///< over the accepted packings (`accepted`)
+  std::optional<double> measured;  ///< mean of the repeats; empty: not measured
+  double standard_deviation = 0;   ///< of one measurement
   int repeats = 0;
   double weight = 0;                          ///< in the fit; 0: reported only
   double tolerance = 0;                       ///< largest accepted difference; 0: not measured
   std::optional<double> band = std::nullopt;  ///< of a hold-out: largest difference explained by the noise of both
-  int packings = 1;                           ///< of the simulated mean and deviation
 };
 
-/// The reading with these simulated values.
-CardReading simulated_now(CardReading reading, const Sample& sample);
-
-/// Standard error of the simulated mean: simulated_standard_deviation/sqrt(packings). Empty for one packing.
+/// Standard error of the simulated mean: standard deviation/sqrt(packings). Empty for one packing.
 std::optional<double> standard_error(const CardReading& reading);
 
 /// Readings of one engine in a test of the card, packing by packing: reference of regression checks.

@@ -41,14 +41,14 @@ inline Range simulated_range(std::string_view name, const Test* test) {
 /// `packings`: of the confirmation.
 template <class Fields, class Of>
 void describe_reading(Fields& fields, Of& one, const Range& range, std::size_t packings) {
-  fields.number({"simulated", "mean of the simulated reading over the packings"}, one.simulated, range, required);
+  fields.number({"simulated", "mean of the simulated reading over the packings"}, one.simulated.mean, range, required);
   fields.number({"simulated_standard_deviation", "standard deviation between packings"},
-                one.simulated_standard_deviation, not_negative, required);
-  if constexpr (Fields::reads) one.packings = 0;  // default: all of the confirmation's
+                one.simulated.standard_deviation, not_negative, required);
+  if constexpr (Fields::reads) one.simulated.count = 0;  // default: all of the confirmation's
   fields.integer({"packings",
                   "number of packings in this mean and standard deviation; present only if a laboratory would reject "
                   "some packings of the confirmation, e.g. because their heaps sheared off"},
-                 one.packings, 1, many, WrittenIf{static_cast<std::size_t>(one.packings) != packings});
+                 one.simulated.count, 1, many, WrittenIf{static_cast<std::size_t>(one.simulated.count) != packings});
   std::optional<double> error = standard_error(one), difference;
   fields.optional_number({"standard_error", "standard error of the mean of two or more packings; derived"}, error,
                          not_negative);
@@ -60,7 +60,7 @@ void describe_reading(Fields& fields, Of& one, const Range& range, std::size_t p
   fields.number({"weight", "weight of the reading in the fit; 0: not fitted"}, one.weight, not_negative, measurement);
   fields.number({"tolerance", "largest accepted difference from the measured reading, if there is one"}, one.tolerance,
                 positive, measurement);
-  if (one.measured) difference = one.simulated - *one.measured;
+  if (one.measured) difference = one.simulated.mean - *one.measured;
   fields.optional_number({"difference", "simulated minus measured reading; derived"}, difference, any);
   fields.optional_number({"band", "in hold-out tests: largest difference that noise explains"}, one.band, not_negative);
 }

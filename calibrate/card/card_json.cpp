@@ -237,7 +237,7 @@ Result<Card> card_from_json(const json& document) {
   for (CardTest& test : read.tests) {
     test.lab.source = stated_source(test.lab.source);
     for (CardReading& reading : test.readings)
-      if (reading.packings == 0) reading.packings = static_cast<int>(read.confirmation.packings.size());
+      if (reading.simulated.count == 0) reading.simulated.count = static_cast<int>(read.confirmation.packings.size());
   }
   if (faults.empty()) faults = card_fields::differing_forms(read);
   if (!faults.empty()) return faults;

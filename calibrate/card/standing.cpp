@@ -31,7 +31,8 @@ Farthest farthest_of(const Card& card) {
     if (test.hold_out) continue;
     for (const CardReading& one : test.readings) {
       if (!is_fitted(one)) continue;
-      const Farthest this_one{reading_name(test, one.name), std::abs(one.simulated - *one.measured), one.tolerance};
+      const Farthest this_one{reading_name(test, one.name), std::abs(one.simulated.mean - *one.measured),
+                              one.tolerance};
       if (farthest.name.empty() || this_one.share() > farthest.share()) farthest = this_one;
     }
   }
@@ -86,7 +87,7 @@ Evidence evidence_of(std::span<const CardTest> tests) {
     if (test.hold_out) continue;
     for (const CardReading& one : test.readings)
       if (is_fitted(one))
-        out.add_reading(one.simulated - *one.measured, standard_error(one).value_or(0), one.tolerance);
+        out.add_reading(one.simulated.mean - *one.measured, standard_error(one).value_or(0), one.tolerance);
     indices.resize(std::max(indices.size(), test.baseline.runs.size()), std::nan(""));
     for (std::size_t i = 0; i < test.baseline.runs.size(); ++i)
       indices[i] =
@@ -186,7 +187,7 @@ std::string unconfirmed_line(const Card& card) {
 std::vector<ComparedYieldStress> compared_yield_stresses(const CardTest& test) {
   Readings measured, simulated;
   for (const CardReading& one : test.readings) {
-    simulated.set(one.name, one.simulated);
+    simulated.set(one.name, one.simulated.mean);
     if (one.measured) measured.set(one.name, *one.measured);
   }
   const std::vector<YieldStress> of_laboratory = yield_stresses_of(test.test, measured);

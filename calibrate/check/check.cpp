@@ -80,8 +80,7 @@ std::vector<Promise> promises_of(const CardTest& test) {
   std::vector<Promise> out;
   if (test.baseline.runs.empty()) {
     for (const auto& reading : test.readings)
-      if (is_checked(test.test, reading.name))
-        out.push_back({reading.name, {reading.packings, reading.simulated, reading.simulated_standard_deviation}});
+      if (is_checked(test.test, reading.name)) out.push_back({reading.name, reading.simulated});
     return out;
   }
   for (const auto& [name, value] : test.baseline.runs[0].readings.all())

@@ -31,7 +31,8 @@ Result<Card> with_measured_bias(const Card& before, Card after, int count, const
         if (known.name == name) reading = known;
       reading.name = name;
       reading.band.reset();
-      test.readings.push_back(simulated_now(reading, sample));
+      reading.simulated = sample;
+      test.readings.push_back(std::move(reading));
       after.rescaled.back().bias.push_back({reading_name(test, name), old_sample.mean, sample.mean,
                                             std::hypot(old_sample.standard_deviation / std::sqrt(old_sample.count),
                                                        sample.standard_deviation / std::sqrt(sample.count))});
@@ -56,9 +57,11 @@ FurtherConfirmation further_confirmation(const Card& card, const CardTest& test,
   for (const CardReading& of_card : test.readings) {
     const auto sample = sample_of(column_of(heaps, of_card.name));
     if (sample.count == 0) continue;
-    CardReading reading = simulated_now(of_card, sample);
+    CardReading reading = of_card;
+    reading.simulated = sample;
     const auto error = standard_error(reading), error_of_card = standard_error(of_card);
-    FurtherConfirmation::Reading beside{of_card.name, of_card.simulated, sample.mean, sample.standard_deviation, {}};
+    FurtherConfirmation::Reading beside{
+        of_card.name, of_card.simulated.mean, sample.mean, sample.standard_deviation, {}};
     if (error && error_of_card) beside.standard_error = std::hypot(*error, *error_of_card);
     done.readings.push_back(std::move(beside));
     there.readings.push_back(std::move(reading));

@@ -111,13 +111,13 @@ struct HeapReading {
   std::optional<double> band;            ///< of |read - simulated| by replicate scatter; may be unknown
 
   bool is_compared() const { return band.has_value(); }
-  bool differs() const { return band && !lie_within(*band, read, of_card->simulated); }
+  bool differs() const { return band && !lie_within(*band, read, of_card->simulated.mean); }
 };
 
 /// The false alarms are shared among the readings that scatter.
 std::vector<HeapReading> beside_card(const Readings& readings, const CardTest& test) {
   const auto scatters = [](const CardReading& one) {
-    return one.packings >= kFewestPackings && one.simulated_standard_deviation > 0;
+    return one.simulated.count >= kFewestPackings && one.simulated.standard_deviation > 0;
   };
   const auto number = std::max<std::ptrdiff_t>(1, std::ranges::count_if(test.readings, scatters));
   const double false_alarm = kReadFalseAlarm / static_cast<double>(number);
@@ -127,9 +127,8 @@ std::vector<HeapReading> beside_card(const Readings& readings, const CardTest& t
     const auto of_card = std::ranges::find(test.readings, reading.name, &CardReading::name);
     if (of_card != test.readings.end()) {
       one.of_card = &*of_card;
-      if (of_card->packings >= kFewestPackings)
-        one.band = band_of({of_card->packings, of_card->simulated, of_card->simulated_standard_deviation},
-                           {1, reading.value, 0}, false_alarm);
+      if (of_card->simulated.count >= kFewestPackings)
+        one.band = band_of(of_card->simulated, {1, reading.value, 0}, false_alarm);
     }
     out.push_back(std::move(one));
   }
@@ -146,12 +145,12 @@ std::string reading_table(const std::vector<HeapReading>& readings, const std::s
       out += format(" %17s\n", "not on the card");
       continue;
     }
-    const std::string scatter = card->packings > 1 ? format(" +- %.2g", card->simulated_standard_deviation) : "";
-    out += format(" %17s", format("%.5g", card->simulated) + scatter);
+    const std::string scatter = card->simulated.count > 1 ? format(" +- %.2g", card->simulated.standard_deviation) : "";
+    out += format(" %17s", format("%.5g", card->simulated.mean) + scatter);
     out += format(" %17s",
                   card->measured ? format("%.5g +- %.2g", *card->measured, card->standard_deviation) : "not measured");
     const std::string noise = !one.band ? "unknown" : *one.band > 0 ? format("%.3g", *one.band) : "none";
-    out += format(" %+10.3g %8s", one.read - card->simulated, noise) + (one.differs() ? "  differs\n" : "\n");
+    out += format(" %+10.3g %8s", one.read - card->simulated.mean, noise) + (one.differs() ? "  differs\n" : "\n");
   }
   if (!packings.empty()) out += "Card: " + packings + ".\n";
   if (std::ranges::any_of(readings, &HeapReading::is_compared))
@@ -169,13 +168,13 @@ nlohmann::ordered_json json_of(const std::vector<HeapReading>& readings, std::si
     nlohmann::ordered_json& row = out["readings"][one.name];
     row["read"] = one.read;
     if (!one.of_card) continue;
-    row["simulated"] = one.of_card->simulated;
-    row["simulated_standard_deviation"] = one.of_card->simulated_standard_deviation;
+    row["simulated"] = one.of_card->simulated.mean;
+    row["simulated_standard_deviation"] = one.of_card->simulated.standard_deviation;
     if (one.of_card->measured) {
       row["measured"] = *one.of_card->measured;
       row["standard_deviation"] = one.of_card->standard_deviation;
     }
-    row["difference"] = one.read - one.of_card->simulated;
+    row["difference"] = one.read - one.of_card->simulated.mean;
     if (!one.band) continue;
     row["noise"] = *one.band;
     row["agrees"] = !one.differs();

@@ -169,8 +169,8 @@ std::string comparison_text(const ExportRequest& request, const Card& card, cons
     const std::string heap_of = other_law ? "The card's heap, which this law does not reproduce" : "The heap to expect";
     out += "\n" + heap_of + " (" + packings + "):\n";
     for (const CardReading& reading : test.readings)
-      out += format("    %-28s %10.5g", reading.name, reading.simulated) +
-             (reading.packings == 1 ? "\n" : format(" +- %.2g\n", reading.simulated_standard_deviation));
+      out += format("    %-28s %10.5g", reading.name, reading.simulated.mean) +
+             (reading.simulated.count == 1 ? "\n" : format(" +- %.2g\n", reading.simulated.standard_deviation));
   }
   out += "\nTo compare the heap of the deck with the card's, in this folder:\n    pastefit read " + heap + " --card " +
          shell_word_if_needed(std::filesystem::absolute(request.card_file).string());

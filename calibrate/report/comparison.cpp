@@ -87,7 +87,7 @@ std::vector<ComparedReading> compared_readings(std::span<const CardFile> cards) 
   for (ComparedReading& row : out)
     for (const CardFile& one : cards) {
       const CardReading* reading = reading_of(one.card, row.name);
-      row.simulated.push_back(reading ? std::optional(reading->simulated) : std::nullopt);
+      row.simulated.push_back(reading ? std::optional(reading->simulated.mean) : std::nullopt);
       row.measured.push_back(reading ? reading->measured : std::nullopt);
     }
   return out;

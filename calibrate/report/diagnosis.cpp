@@ -55,7 +55,7 @@ Diagnosis readings(const Card& card) {
   std::string largest;
   for_fitted(card, [&](const CardTest& test, const CardReading& one) {
     const auto error = standard_error(one);
-    const double off = std::abs(one.simulated - *one.measured);
+    const double off = std::abs(one.simulated.mean - *one.measured);
     const std::string words = reading_name(test, one.name) + " is off by " + plain(off) +
                               (error ? " +- " + plain(*error, 2) : "") + " of the " + plain(one.tolerance) + " allowed";
     if (off > one.tolerance)
@@ -140,9 +140,7 @@ Diagnosis packings(const Card& card) {
   Diagnosis out{.name = "scatter between packings",
                 .may_be_ignored = "if the mean over many heaps is used, as the confirmation does",
                 .page = "theory.md#noise-of-packings"};
-  judge_scatter(card, out, [](const CardReading& one) {
-    return Sample{one.packings, one.simulated, one.simulated_standard_deviation};
-  });
+  judge_scatter(card, out, [](const CardReading& one) { return one.simulated; });
   const auto count = card.confirmation.packings.size();
   if (count == 1) out.reservations.push_back("one packing, error unknown");
   if (count == 0) out.unknown = "the material was not simulated";

@@ -50,8 +50,8 @@ ordered_json page_readings(const CardTest& test) {
   auto out = ordered_json::array();
   for (const CardReading& one : test.readings) {
     ordered_json reading{{"name", one.name},
-                         {"simulated", one.simulated},
-                         {"simulated_standard_deviation", one.simulated_standard_deviation}};
+                         {"simulated", one.simulated.mean},
+                         {"simulated_standard_deviation", one.simulated.standard_deviation}};
     if (const auto error = standard_error(one)) reading["standard_error"] = *error;
     reading["packings"] = ordered_json::array();
     for (const Baseline::Run& run : test.baseline.runs)

@@ -32,9 +32,10 @@ std::string reading_lines(const std::vector<CardReading>& readings) {
     out += format("  %-24s ", reading.name);
     out += reading.measured ? format("%10.4g %10.3g ", *reading.measured, reading.standard_deviation)
                             : format("%10s %10s ", "-", "-");
-    out += format("%10.5g ", reading.simulated) + (error ? format("+- %-6.2g", *error) : std::string(9, ' '));
+    out += format("%10.5g ", reading.simulated.mean) + (error ? format("+- %-6.2g", *error) : std::string(9, ' '));
     if (reading.measured)
-      out += format(" %+9.3g%s", reading.simulated - *reading.measured, reading.weight > 0 ? "" : "   (not fitted)");
+      out +=
+          format(" %+9.3g%s", reading.simulated.mean - *reading.measured, reading.weight > 0 ? "" : "   (not fitted)");
     if (reading.band) out += format("\n    (noise explains +-%.3g)", *reading.band);
     out += "\n";
   }
@@ -106,7 +107,7 @@ std::string unfitted_words(const Card& card) {
   for (const auto& test : card.tests)
     for (const auto& one : test.readings) {
       if (!one.measured || one.weight > 0 || test.hold_out) continue;
-      const double off = std::abs(one.simulated - *one.measured);
+      const double off = std::abs(one.simulated.mean - *one.measured);
       out += " " + reading_name(test, one.name) + " was not fitted and is " +
              format("%.3g%s off", off, is_length(one.name) ? " mm" : "");
       if (off <= one.standard_deviation)
@@ -127,7 +128,7 @@ std::string verdict_on_fitted(const Card& card) {
   for (const CardTest& test : card.tests)
     for (const CardReading& one : test.readings)
       if (one.measured && one.weight > 0 && !test.hold_out)
-        accepted = std::min(accepted, static_cast<std::size_t>(one.packings));
+        accepted = std::min(accepted, static_cast<std::size_t>(one.simulated.count));
   const std::string largest =
       "largest error " +
       (unit.tolerance_mm ? unit.words(confirmation.error, "%.2f") + " of the " + unit.words(1, "%.3g") + " allowed"

@@ -32,9 +32,9 @@ Card card() {
   out.material.grain_density_kg_m3 = 2238 / 0.6;
   out.material.grains = specimen_of(test.test).grains;
   out.material.contact = specimen_of(test.test).contact;
-  test.readings = {{"step1.height_mm", 151.3, 2.5, 150.0, 7.5, 3, 1, 5}, {"step1.spread_mm", 400, 4, {}, 0, 0, 0}};
+  test.readings = {{"step1.height_mm", {4, 151.3, 2.5}, 150.0, 7.5, 3, 1, 5},
+                   {"step1.spread_mm", {4, 400, 4}, {}, 0, 0, 0}};
   out.confirmation = {{18446744073709551615u, 9007199254740993u, 3, 4}, true, 0.26, true};
-  for (CardReading& one : test.readings) one.packings = 4;
   out.search = {"default", "confirmed", "It fits.", 42, {1, 2}, 60, 38, {{"never_settled", 2}}};
   out.provenance = {"study.json", "0123456789abcdef", "pastefit 0.1.0 engine 00"};
   test.lab_file = "lab.json";
@@ -102,7 +102,7 @@ TEST_CASE("a card states differences and standard errors") {
 
 TEST_CASE("a card keeps of how many packings a reading is where a laboratory would reject the others") {
   Card material = card();
-  material.tests[0].readings[0].packings = 3;
+  material.tests[0].readings[0].simulated.count = 3;
   const auto document = to_json(material);
   const auto& readings = document["tests"][0]["readings"];
   CHECK(readings["step1.height_mm"]["packings"] == 3);
@@ -110,8 +110,8 @@ TEST_CASE("a card keeps of how many packings a reading is where a laboratory wou
   CHECK_FALSE(readings["step1.spread_mm"].contains("packings"));
   const auto read = card_from_json(document);
   REQUIRE(read.ok());
-  CHECK(read.value().tests[0].readings[0].packings == 3);
-  CHECK(read.value().tests[0].readings[1].packings == 4);
+  CHECK(read.value().tests[0].readings[0].simulated.count == 3);
+  CHECK(read.value().tests[0].readings[1].simulated.count == 4);
   CHECK_THAT(verdict_of(material), Catch::Contains("(mean of 3 of 4 packings)"));
 }
 
@@ -190,12 +190,11 @@ TEST_CASE(
     "people are told the misfit in mm where all that is fitted are lengths of one tolerance, else in tolerances") {
   auto material = card();
   CHECK_THAT(verdict_of(material), Catch::Contains("largest error 1.30 mm of the 5 mm allowed (mean of 4 packings)"));
-  material.tests[0].readings.push_back({"fill.mass_kg", 9.1, 0.1, 9.0, 0.1, 1, 0, 0.1});
+  material.tests[0].readings.push_back({"fill.mass_kg", {4, 9.1, 0.1}, 9.0, 0.1, 1, 0, 0.1});
   CHECK_THAT(verdict_of(material), Catch::Contains("1.30 mm"));  // the mass is not fitted
   material.tests[0].readings.back().weight = 1;
-  material.tests[0].readings.back().packings = 4;
   CHECK_THAT(verdict_of(material), Catch::Contains("largest error 0.26 of its tolerance (mean of 4 packings)"));
-  material.tests[0].readings.back() = {"step2.height_mm", 90, 2, 91, 7, 1, 1, 5};
+  material.tests[0].readings.back() = {"step2.height_mm", {1, 90, 2}, 91, 7, 1, 1, 5};
   CHECK_THAT(verdict_of(material), Catch::Contains("1.30 mm"));
   material.tests[0].readings.back().tolerance = 2;
   CHECK_THAT(verdict_of(material), Catch::Contains("of its tolerance"));
@@ -344,7 +343,7 @@ TEST_CASE("the other tests of a study, its hold-outs and what was known beforeha
   fitted.lab_hash = "00000000000000aa";
   fitted.test = written.tests[0].test;
   std::get<SlumpTest>(fitted.test).mould.height_m = 0.2;
-  fitted.readings = {{"step1.height_mm", 80, 2, 83.0, 4, 3, 1, 5}};
+  fitted.readings = {{"step1.height_mm", {1, 80, 2}, 83.0, 4, 3, 1, 5}};
   CardTest held = fitted;
   held.name = "fast";
   held.hold_out = true;

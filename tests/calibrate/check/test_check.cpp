@@ -100,9 +100,7 @@ TEST_CASE("every test of a card is checked, and a reading carries the name of it
   std::get<SlumpTest>(lower.test).mould.height_m *= 0.9;
   CardReading low;
   low.name = "step1.height_axis_mm";
-  low.simulated = 50;
-  low.simulated_standard_deviation = 1;
-  low.packings = 2;
+  low.simulated = {2, 50, 1};
   lower.readings.push_back(low);
   card.confirmation.packings = {10, 11};
   card.tests.push_back(lower);
@@ -229,7 +227,7 @@ TEST_CASE("another program may give other bits within the noise, unless bits are
 TEST_CASE("a card without single runs is checked by mean and deviation, one without noise not at all") {
   Card card = quick_card({});
   card.confirmation.packings = {10, 11, 12, 13};
-  card.tests[0].readings = {{"step1.height_axis_mm", 101, 2.6, {}, 0, 0, 0}};
+  card.tests[0].readings = {{"step1.height_axis_mm", {1, 101, 2.6}, {}, 0, 0, 0}};
   const auto engine = quick_engine("elsewhere", {100, 104, 98, 102});
   const auto checked = check(card, {}, engine);
   CHECK(checked.verdict == CheckVerdict::agrees);

@@ -13,9 +13,7 @@ Card card_of_height() {
   card.tests.emplace_back().test = SlumpTest{};
   CardReading height;
   height.name = "step1.height_axis_mm";
-  height.simulated = 100;
-  height.simulated_standard_deviation = 3;
-  height.packings = 9;
+  height.simulated = {9, 100, 3};
   height.measured = 101;
   height.weight = 1;
   height.tolerance = 5;
@@ -85,7 +83,7 @@ TEST_CASE("a material half of whose heaps shear off in another engine does not m
 
 TEST_CASE("the bias against one packing has no standard error, and a test that is held out has no verdict") {
   Card card = card_of_height();
-  card.tests[0].readings[0].packings = 1;
+  card.tests[0].readings[0].simulated.count = 1;
   card.tests[0].hold_out = true;
   const auto there = confirmed_by(card, runs_of_heights({101, 102}));
   CHECK_FALSE(there.readings[0].standard_error.has_value());

@@ -46,7 +46,7 @@ TEST_CASE("a reading beyond its tolerance is doubtful and no reservation, as the
   Card card = card_named("concrete-mix-79");
   CHECK_FALSE(of(card, "readings within tolerance").is_doubtful());
   CardReading& height = height_of(card);
-  height.simulated = *height.measured + 2 * height.tolerance;
+  height.simulated.mean = *height.measured + 2 * height.tolerance;
   const Diagnosis readings = of(card, "readings within tolerance");
   CHECK(readings.reservations.empty());
   REQUIRE(readings.notes.size() == 1);
@@ -56,10 +56,10 @@ TEST_CASE("a reading beyond its tolerance is doubtful and no reservation, as the
 TEST_CASE("scatter is doubtful only if it exceeds the published repeatability by more than chance") {
   Card card = card_named("concrete-mix-79");
   CardReading& height = height_of(card);
-  height.packings = 8;
-  height.simulated_standard_deviation = 9;  // published: 7.5 mm; of 8 heaps, chance explains 10.6
+  height.simulated.count = 8;
+  height.simulated.standard_deviation = 9;  // published: 7.5 mm; of 8 heaps, chance explains 10.6
   CHECK_FALSE(of(card, "scatter between packings").is_doubtful());
-  height.simulated_standard_deviation = 20;
+  height.simulated.standard_deviation = 20;
   CHECK_THAT(of(card, "scatter between packings").notes.at(0), Catch::Contains("20 mm, published 7.5 mm"));
   CHECK_FALSE(of(card, "scatter of the measurement").is_doubtful());
   height.repeats = 4;

@@ -27,7 +27,7 @@ Parameter& friction_of(Card& card) {
 Card too_low() {
   Card card = card_of_friction();
   for (CardReading& one : card.tests[0].readings)
-    if (one.name == "step1.height_mm") one.simulated = *one.measured - 2 * one.tolerance;
+    if (one.name == "step1.height_mm") one.simulated.mean = *one.measured - 2 * one.tolerance;
   card.confirmation.error = 2;
   card.confirmation.meets_laboratory = false;
   card.confirmation.refuted = true;

@@ -52,7 +52,7 @@ TEST_CASE("a page tells what each packing read, and the error of a mean over sev
   CHECK(reading().at("packings").size() == findings.card->confirmation.packings.size());
   CHECK(reading().at("packings")[1] == *test.baseline.runs[1].readings.find(height));
   CHECK(reading().at("standard_error") > 0);
-  for (CardReading& one : findings.card->tests[0].readings) one.packings = 1;
+  for (CardReading& one : findings.card->tests[0].readings) one.simulated.count = 1;
   CHECK_FALSE(reading().contains("standard_error"));
 }
 

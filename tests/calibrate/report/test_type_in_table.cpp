@@ -34,7 +34,7 @@ Card without_reservations() {
   for (auto& parameter : card.material.parameters) parameter.free = false;
   for (auto& run : card.tests[0].baseline.runs) run.readings.set("step1.lateral_shift_mm", 5);
   for (auto& one : card.tests[0].readings)
-    if (one.measured) one.simulated = *one.measured;
+    if (one.measured) one.simulated.mean = *one.measured;
   return card;
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("heaps that sheared off, a parameter at its bound and a marginal readi
   strength.lower = strength.value;
   strength.upper = 10 * strength.value;
   for (auto& one : card.tests[0].readings)
-    if (one.name == "step1.height_mm") one.simulated = *one.measured + 0.95 * one.tolerance;
+    if (one.name == "step1.height_mm") one.simulated.mean = *one.measured + 0.95 * one.tolerance;
   const auto reservations = reservations_on(card);
   REQUIRE(reservations.size() == 3);
   const auto heaps = std::to_string(card.tests[0].baseline.runs.size());
@@ -148,8 +148,8 @@ TEST_CASE("the readings of a single packing have no error") {
   Card card = without_reservations();
   card.confirmation.packings = {1};
   for (auto& one : card.tests[0].readings) {
-    one.simulated_standard_deviation = 0;
-    one.packings = 1;
+    one.simulated.standard_deviation = 0;
+    one.simulated.count = 1;
   }
   CHECK_THAT(summary_of(card), !Catch::Contains("+- 0 ") && Catch::Contains("Simulated: one packing, error unknown"));
   CHECK_THAT(verdict_of(card), Catch::Contains("with reservations") && Catch::Contains("one packing, error unknown"));

@@ -101,7 +101,7 @@ TEST_CASE("a hold-out is judged by the noise of both sides, and only what counts
     CHECK(test.name == "low");
     REQUIRE(test.within_noise);
     CHECK(*test.within_noise == within);
-    CHECK(test.readings[0].simulated == Approx(22.5));
+    CHECK(test.readings[0].simulated.mean == Approx(22.5));
     CHECK(test.readings[0].band);
     CHECK_FALSE(test.readings[1].band);
     CHECK(card().tests[0].readings[0].measured == 100.0);
