@@ -16,9 +16,13 @@ Json number_of(double value) {
 
 }  // namespace
 
-ObjectSchema::ObjectSchema(Json& object, Json& definitions) : object_(object), definitions_(definitions) {
+ObjectSchema::ObjectSchema(std::shared_ptr<Json> definitions) : definitions_(std::move(definitions)) {
   object_ = {{"type", "object"}, {"additionalProperties", false}};
   object_["properties"] = Json::object();
+}
+
+ObjectSchema::ObjectSchema(std::string_view format) : ObjectSchema() {
+  constant({"format", "kind of file and version of its format"}, format, Need::required);
 }
 
 Json ObjectSchema::number_in(const Range& range) {
@@ -57,7 +61,7 @@ void ObjectSchema::put(const Key& key, Json schema, Need need) {
 }
 
 Json ObjectSchema::defined(const std::string& name, Json object) {
-  definitions_[name] = std::move(object);
+  (*definitions_)[name] = std::move(object);
   return {{"$ref", "#/definitions/" + name}};
 }
 
@@ -73,10 +77,10 @@ void ObjectSchema::put_known(const Key& key, const Json& entries, Need need) {
   put(key, {{"type", "object"}, {"propertyNames", {{"enum", names}}}, {"additionalProperties", entries.front()}}, need);
 }
 
-Json document_schema(std::string_view title, std::string_view description, Json object, Json definitions) {
+Json ObjectSchema::document(std::string_view title, std::string_view description) const {
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}, {"description", description}};
-  for (auto& [word, value] : object.items()) schema[word] = std::move(value);
-  if (!definitions.is_null()) schema["definitions"] = std::move(definitions);
+  for (const auto& [word, value] : object_.items()) schema[word] = value;
+  if (!definitions_->is_null()) schema["definitions"] = *definitions_;
   return schema;
 }
 

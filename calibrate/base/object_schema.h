@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -19,8 +20,10 @@ class ObjectSchema {
  public:
   using Json = nlohmann::ordered_json;
   static constexpr bool reads = false;
-  /// `object` becomes the schema; `shared` objects go to `definitions`.
-  ObjectSchema(Json& object, Json& definitions);
+  /// Schema of a document, or of a part of one.
+  ObjectSchema() : ObjectSchema(std::make_shared<Json>()) {}
+  /// Schema of a file of this format.
+  explicit ObjectSchema(std::string_view format);
 
   void number(const Key& key, double, const Range& range, Need need, double = 1) { put(key, number_in(range), need); }
   void nullable_number(const Key& key, const std::optional<double>&, const Range& range, Need need) {
@@ -91,26 +94,26 @@ class ObjectSchema {
   Json defined(const std::string& name, Json schema);
   /// Schema of what `body(ObjectSchema&)` describes.
   Json described(auto body) {
-    Json object;
-    ObjectSchema inner(object, definitions_);
+    ObjectSchema inner(definitions_);
     body(inner);
-    return inner.shared_.empty() ? object : defined(inner.shared_, std::move(object));
+    return inner.shared_.empty() ? std::move(inner.object_) : defined(inner.shared_, std::move(inner.object_));
   }
+  /// What is described so far, for rules that the methods do not have.
+  Json& described() { return object_; }
+  /// The whole schema, with the definitions of its `shared` objects.
+  Json document(std::string_view title, std::string_view description) const;
 
  private:
+  explicit ObjectSchema(std::shared_ptr<Json> definitions);
   static Json number_in(const Range& range);
   static Json any_whole_number();
   static Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
   static Json or_null(Json schema);
   void put_known(const Key& key, const Json& entries, Need need);
 
-  Json& object_;
-  Json& definitions_;
+  Json object_;
+  std::shared_ptr<Json> definitions_;  // one for all parts of a document
   std::string shared_;
 };
-
-/// Schema of a file: that of its object, with its definitions.
-nlohmann::ordered_json document_schema(std::string_view title, std::string_view description,
-                                       nlohmann::ordered_json object, nlohmann::ordered_json definitions);
 
 }  // namespace pastefit

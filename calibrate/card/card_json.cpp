@@ -245,18 +245,14 @@ Result<Card> card_from_json(const json& document) {
 }
 
 ordered_json card_schema() {
-  ordered_json object, definitions;
-  ObjectSchema schema(object, definitions);
-  schema.constant({"format", "kind of file and version of its format"}, card_fields::format_of(kCardVersion),
-                  Need::required);
+  ObjectSchema schema(card_fields::format_of(kCardVersion));
   Card any;
   any.material.parameters = default_parameters();
   card_fields::describe_card(schema, any);
-  return document_schema("pastefit material card",
+  return schema.document("pastefit material card",
                          "A calibrated material: its contact laws in SI units and in scale-free form, the simulated "
                          "and measured readings of its tests, and its provenance. The schema does not check that the "
-                         "numbers agree with each other. The writer of the card must ensure this.",
-                         std::move(object), std::move(definitions));
+                         "numbers agree with each other. The writer of the card must ensure this.");
 }
 
 Result<Card> read_card(const std::filesystem::path& file) {

@@ -246,16 +246,13 @@ Faults unsuitable_grains(const Application& application, double largest_radius, 
 }
 
 ObjectSchema::Json application_schema() {
-  ObjectSchema::Json object, definitions;
-  ObjectSchema schema(object, definitions);
-  schema.constant({"format", "kind of file and version of its format"}, "pastefit-application-1", Need::required);
+  ObjectSchema schema("pastefit-application-1");
   Application any;
   describe_application(schema, any, [](MachinePart&) {});
-  return document_schema(
+  return schema.document(
       "pastefit application",
       "A machine in which the material of a card is simulated: chute, hopper, mixer. The program also "
-      "checks that the STL files are readable and that the feed suits the grains.",
-      std::move(object), std::move(definitions));
+      "checks that the STL files are readable and that the feed suits the grains.");
 }
 
 }  // namespace pastefit

@@ -190,9 +190,7 @@ void tell_grains(ObjectSchema& document, Need need) {
 }
 
 ObjectSchema::Json apparatus_schema() {
-  ObjectSchema::Json object, definitions;
-  ObjectSchema schema(object, definitions);
-  schema.constant({"format", "kind of file and version of its format"}, "pastefit-rig-1", Need::required);
+  ObjectSchema schema("pastefit-rig-1");
   schema.text({"title", "title, one line"}, "", Need::required);
   tell_provenance(schema);
   tell_test(schema, false);
@@ -217,8 +215,7 @@ ObjectSchema::Json apparatus_schema() {
       {"caution",
        "warning for all users of the apparatus, one sentence without a full stop; runs with this preset print it"},
       "", Need::optional);
-  return document_schema("pastefit apparatus file", "An apparatus with a default material and default grains.",
-                         std::move(object), std::move(definitions));
+  return schema.document("pastefit apparatus file", "An apparatus with a default material and default grains.");
 }
 
 void read_kind(ObjectReader& document, Test& test) {

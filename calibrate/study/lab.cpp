@@ -213,9 +213,7 @@ Result<Lab> read_lab(const std::filesystem::path& file, const std::function<void
 
 ObjectSchema::Json lab_schema() {
   using Json = ObjectSchema::Json;
-  Json object, definitions;
-  ObjectSchema schema(object, definitions);
-  schema.constant({"format", "kind of file and version of its format"}, "pastefit-lab-1", Need::required);
+  ObjectSchema schema("pastefit-lab-1");
   schema.text({"title", "title, one line"}, "", Need::required);
   schema.texts({"confirmed",
                 "keys of unusual values that are correct, e.g. [\"material.bulk_density_kg_m3\"]; the messages of the "
@@ -243,12 +241,11 @@ ObjectSchema::Json lab_schema() {
                  "accepts at least this share of sheared-off heaps"},
                 Need::optional, [&](ObjectSchema& fields) { describe_repeats(fields, any); });
   tell_measurements(schema);
-  object["if"]["not"]["properties"]["apparatus"]["required"].push_back("preset");
-  object["then"]["required"].push_back("grains");
-  return document_schema("pastefit laboratory file",
+  schema.described()["if"]["not"]["properties"]["apparatus"]["required"].push_back("preset");
+  schema.described()["then"]["required"].push_back("grains");
+  return schema.document("pastefit laboratory file",
                          "Measurements of one laboratory test. The schema does not contain limits that depend on the "
-                         "apparatus, e.g. that no heap is higher than its vessel. The program checks these limits.",
-                         std::move(object), std::move(definitions));
+                         "apparatus, e.g. that no heap is higher than its vessel. The program checks these limits.");
 }
 
 }  // namespace pastefit

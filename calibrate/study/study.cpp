@@ -175,9 +175,7 @@ Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& 
 
 ObjectSchema::Json study_schema() {
   using Json = ObjectSchema::Json;
-  Json object, definitions;
-  ObjectSchema schema(object, definitions);
-  schema.constant({"format", "kind of file and version of its format"}, "pastefit-study-1", Need::required);
+  ObjectSchema schema("pastefit-study-1");
   schema.text({"title", "title, one line"}, "", Need::required);
   tell_tests(schema);
   ContactModel any;
@@ -203,20 +201,17 @@ ObjectSchema::Json study_schema() {
   Json one_test = needed("lab"), several = needed("tests");
   one_test["not"] = needed("tests");
   for (const char* key : {"lab", "weights", "tolerances"}) several["not"]["anyOf"].push_back(needed(key));
-  object["oneOf"].push_back(one_test);
-  object["oneOf"].push_back(several);
-  return document_schema(
+  for (const Json& form : {one_test, several}) schema.described()["oneOf"].push_back(form);
+  return schema.document(
       "pastefit study file",
       "A study gives the parameters to fit, the measurements of one or several laboratory files to which they are "
       "fitted, and the options of the search. The program also checks rules that the schema does not contain. Bounds "
       "must be in order and differ by more than a millionth. On a log scale, they may differ by at most a factor of "
-      "1e12. At least one parameter must be free. The contact laws must use every named parameter.",
-      std::move(object), std::move(definitions));
+      "1e12. At least one parameter must be free. The contact laws must use every named parameter.");
 }
 
 ObjectSchema::Json laws_schema() {
-  ObjectSchema::Json object, definitions;
-  ObjectSchema schema(object, definitions);
+  ObjectSchema schema;
   schema.choice({"normal",
                  "force law of overlapping grains; hertz: elastic spheres; jkr: elastic spheres that adhere; dmt: "
                  "stiff spheres that adhere; sjkr: attraction proportional to the contact area of the spheres; epa: "
@@ -231,10 +226,9 @@ ObjectSchema::Json laws_schema() {
                  "rolling resistance; spring_dashpot: an elastic-plastic spring with a dashpot; constant_torque: a "
                  "constant torque against the spin"},
                 RollingModel(), rolling_models, Need::optional);
-  return document_schema(
+  return schema.document(
       "pastefit contact laws",
-      "Names of the contact laws in studies, cards and cases. core/laws/README.md describes the laws.",
-      std::move(object), std::move(definitions));
+      "Names of the contact laws in studies, cards and cases. core/laws/README.md describes the laws.");
 }
 
 }  // namespace pastefit
