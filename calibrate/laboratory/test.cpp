@@ -39,10 +39,6 @@ Fault in_unit_of(std::string_view field, Fault fault) {
 
 }  // namespace
 
-void read_apparatus(ObjectReader& apparatus, Test& test, Need need) {
-  std::visit([&](auto& one) { describe_apparatus(apparatus, one, need); }, test);
-}
-
 std::optional<NamedOutline> outline_at(const Test& test, const Snapshot& snapshot) {
   const std::string_view phase = snapshot.phase;
   if (!phase.ends_with(".rest") || phase.starts_with("drops.")) return std::nullopt;

@@ -137,8 +137,6 @@ auto accepted(const Test& test, const Runs& runs) {
   return out;
 }
 
-void read_apparatus(ObjectReader& apparatus, Test& test, Need need);
-
 /// Returns every fault that prevents the simulation; places are paths in the test's JSON.
 Faults validate(const Test& test);
 

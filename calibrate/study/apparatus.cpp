@@ -44,12 +44,14 @@ constexpr std::array<GrainLength, 4> grain_lengths{
      {"smallest_mm", "smallest radius", &GrainSizes::smallest_m, false, true, true},
      {"largest_mm", "largest radius", &GrainSizes::largest_m, false, true, true}}};
 
-void describe_file_provenance(auto& fields, Provenance& provenance) {
-  fields.text({"source", "who measured, where and when; or the publication"}, provenance.source, Need::required);
-  fields.text({"licence", "licence of the data"}, provenance.licence, Need::optional);
-  fields.text({"notes", "other information, e.g. what was assumed"}, provenance.notes, Need::optional);
-  fields.flag({"twin", "true: the readings are simulated with known parameters, not measured"}, provenance.twin,
-              Need::optional);
+void describe_file_provenance(auto& document, Provenance& provenance) {
+  document.object({"provenance", "source of the data"}, Need::required, [&](auto& fields) {
+    fields.text({"source", "who measured, where and when; or the publication"}, provenance.source, Need::required);
+    fields.text({"licence", "licence of the data"}, provenance.licence, Need::optional);
+    fields.text({"notes", "other information, e.g. what was assumed"}, provenance.notes, Need::optional);
+    fields.flag({"twin", "true: the readings are simulated with known parameters, not measured"}, provenance.twin,
+                Need::optional);
+  });
 }
 
 void describe_density(auto& material, Specimen& specimen) {
@@ -152,15 +154,13 @@ std::vector<fs::path> apparatus_folders(const fs::path& folder) {
 }
 
 void read_provenance(ObjectReader& document, Provenance& provenance) {
-  document.object("provenance", Need::required,
-                  [&](ObjectReader& reader) { describe_file_provenance(reader, provenance); });
+  describe_file_provenance(document, provenance);
   provenance.source = stated_source(provenance.source);
 }
 
 void tell_provenance(ObjectSchema& document) {
   Provenance any;
-  document.object({"provenance", "source of the data"}, Need::required,
-                  [&](ObjectSchema& fields) { describe_file_provenance(fields, any); });
+  describe_file_provenance(document, any);
 }
 
 void tell_test(ObjectSchema& document, bool presets) {
@@ -239,7 +239,8 @@ std::optional<Apparatus> read_apparatus(ObjectReader& document, Test& test, cons
       apparatus.fault("preset", in_quotes(name) + " is an apparatus for another test", "name one for this test");
     else if (preset)
       test = preset->test;
-    read_apparatus(apparatus, test, named ? Need::optional : Need::required);
+    const Need need = named ? Need::optional : Need::required;
+    std::visit([&](auto& one) { describe_apparatus(apparatus, one, need); }, test);
   });
   return preset;
 }
