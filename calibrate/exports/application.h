@@ -81,6 +81,12 @@ struct Application {
 /// parts whose properties the file does not give. Errors: every fault, with its place.
 Result<Application> read_application(const std::filesystem::path& file, const WallContact& usual);
 
+/// Estimated time from the feed of a grain to its discharge, averaged over the fed grains. Without an outlet: until the
+/// end. With an outlet and a motion, e.g. of a gate: grains leave evenly from the last start of a motion to the end.
+/// Otherwise twice the free fall from the feed to the height of the outlet, because surfaces slow the grains. Limit:
+/// not for material that stays in a machine with an outlet.
+double mean_residence_s(const Application& application);
+
 /// Largest velocity of the feed and of the parts' corners.
 double fastest_m_s(const Application& application);
 

@@ -182,16 +182,19 @@ Faults beyond_limits(const ExportScene& scene) {
   return faults;
 }
 
-/// Size of the simulation. LIGGGHTS makes about 2 million particle-steps per second on a core (tests/results/speed.csv:
-/// 3.1 with sjkr, 1.6 with a capillary bridge).
+/// Size of the simulation. LIGGGHTS makes 2.3 million particle-steps per second on a core in a chute with `epa` (7,400
+/// grains) and 2.4 million in a hopper of dry grains (13,000); 3.1 with sjkr, 1.6 with a capillary bridge
+/// (tests/results/speed.csv).
 std::string effort_in_words(const Application& application, const ExportScene& scene, double time_step_s) {
-  constexpr double steps_per_core_s = 2e6;
+  constexpr double steps_per_core_s = 2.3e6;
   double volume = 0;
   for (const double radius : scene.packing.radii) volume += 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
   const double mean_mass = volume / static_cast<double>(scene.packing.radii.size()) * scene.grain_density_kg_m3;
-  const double grains = application.feed.mass_kg / mean_mass, steps = application.duration_s / time_step_s;
-  return plain(grains, 2) + " grains, " + plain(steps, 2) + " time steps: at most " +
-         plain(grains * steps / steps_per_core_s / 60, 2) + " minutes" + " on one core, less if grains leave early.";
+  const double grains = application.feed.mass_kg / mean_mass;
+  return plain(grains, 2) + " grains, " + plain(application.duration_s / time_step_s, 2) + " time steps: about " +
+         plain(grains * mean_residence_s(application) / time_step_s / steps_per_core_s / 60, 2) +
+         " minutes on one core, if grains stay " + plain(mean_residence_s(application), 2) +
+         " s in the machine on average.";
 }
 
 /// Grains would pass through parts that move too far in a time step, or that they meet too fast.

@@ -261,3 +261,16 @@ TEST_CASE("figures of a run that has not ended, or of none, are refused") {
   folder.write("figures.csv", "");
   CHECK_FALSE(read_key_figures(folder.path()).ok());
 }
+
+TEST_CASE("grains stay until the end without an outlet, half of the time after a gate opens, and twice their fall") {
+  Application machine;
+  machine.duration_s = 10;
+  machine.feed.mass_kg = 10;
+  machine.feed.rate_kg_s = 5;  // the mean grain enters after 1 s
+  machine.feed.centre_m = {0, 0, 2};
+  CHECK(mean_residence_s(machine) == Approx(9));
+  machine.outlet = OrientedPlane{{0, 0, 0}, {0, 0, -1}};
+  CHECK(mean_residence_s(machine) == Approx(2 * std::sqrt(2 * 2 / 9.81)));
+  machine.parts.emplace_back().slide = Slide{.from_s = 4, .velocity_m_s = {1, 0, 0}, .distance_m = 0.1};
+  CHECK(mean_residence_s(machine) == Approx(7 - 1));
+}
