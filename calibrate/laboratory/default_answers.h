@@ -152,7 +152,7 @@ inline std::string_view rejected_runs(const Specimen&) {
   return "runs are such as a laboratory rejects";
 }
 
-/// One-line remark on these runs besides their readings; may be empty.
+/// Remark on these runs besides their readings, without a final full stop; may be empty.
 inline std::string remarks_on(const Specimen&, std::span<const Readings>) {
   return {};
 }

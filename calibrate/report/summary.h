@@ -33,7 +33,7 @@ std::string remarks_on(const CardTest& test);
 /// Whether a held-out test was predicted. Requirement: it was judged.
 std::string hold_out_in_words(const CardTest& test);
 
-/// Reservations about a card whose readings may be within their tolerances, one clause each, the most serious first:
+/// Reservations about a card whose readings may be within their tolerances, one text each, the most serious first:
 /// those of all `diagnoses_of`. May be empty.
 std::vector<std::string> reservations_on(const Card& card);
 

@@ -37,6 +37,8 @@ std::vector<Baseline::Run> runs_of_heights(const std::vector<double>& heights, s
 /// The confirmation of the first test by these runs.
 FurtherConfirmation confirmed_by(const Card& card, const std::vector<Baseline::Run>& runs) {
   FurtherConfirmation done;
+  done.engine = "lammps";
+  done.ranks = 2;
   done.core_s = 20;
   return further_confirmation(card, card.tests[0], card.tests[0].test, runs, done);
 }
@@ -52,6 +54,8 @@ TEST_CASE("the bias of another engine is the difference of the means, with the n
   CHECK(*there.readings[0].standard_error == Approx(std::sqrt(variance / 4 + 9.0 / 9)));
   CHECK(*there.error == Approx(4.0 / 5));
   CHECK(there.packings == std::vector<std::uint64_t>{1, 2, 3, 4});
+  CHECK(there.engine == "lammps");
+  CHECK(there.ranks == 2);
   CHECK(there.core_s == 20);
   CHECK(there.meets_laboratory);
 }
