@@ -264,7 +264,8 @@ ObjectSchema::Json application_schema() {
   return schema.document(
       "pastefit application",
       "A machine in which the material of a card is simulated: chute, hopper, mixer. The program also "
-      "checks that the STL files are readable and that the feed suits the grains.");
+      "checks that the STL files are readable, and that radius, rate and mass of the feed are possible with the "
+      "card's grains.");
 }
 
 }  // namespace pastefit

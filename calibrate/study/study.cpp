@@ -205,9 +205,10 @@ ObjectSchema::Json study_schema() {
   return schema.document(
       "pastefit study file",
       "A study gives the parameters to fit, the measurements of one or several laboratory files to which they are "
-      "fitted, and the options of the search. The program also checks rules that the schema does not contain. Bounds "
-      "must be in order and differ by more than a millionth. On a log scale, they may differ by at most a factor of "
-      "1e12. At least one parameter must be free. The contact laws must use every named parameter.");
+      "fitted, and the options of the search. The program also checks rules that the schema does not contain. The "
+      "lower bound of a parameter must be below its upper bound, and the two must differ by more than a millionth of "
+      "the larger absolute value. On a log scale, they may differ by at most a factor of 1e12. At least one parameter "
+      "must be free. Every parameter that the study names must belong to one of its contact laws.");
 }
 
 ObjectSchema::Json laws_schema() {

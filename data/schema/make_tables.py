@@ -106,8 +106,8 @@ class Tables:
         lines = [f"# {self.schema['title'][0].upper() + self.schema['title'][1:]}", "", self.schema["description"], "",
                  f"`make_tables.py` generates this page from `{name}.schema.json`. Each key is given with its full path, e.g. "
                  "`apparatus.reading.height`. In a path, `[]` stands for any element of a list, and `NAME` stands for any name. Some "
-                 "objects have several forms, and a key may exist in only some of these forms. `(optional)` marks a key that at least "
-                 "one form of its object has but does not require.", ""]
+                 "objects have several forms, and a key may exist in only some of these forms. `(optional)` marks a key that may be "
+                 "omitted in at least one form of its object.", ""]
         lines += self.table(self.schema)
         for part, schema in sorted(self.schema.get("definitions", {}).items()):
             if self.has_keys(schema):
