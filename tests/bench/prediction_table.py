@@ -49,7 +49,7 @@ def cases():
         step, quantity = row["reading"].split(".")
         quantity = quantity.removesuffix("_mm")
         if row["status"] == "confirmed" and quantity in HEAP_MM:
-            found[f"{quantity} {'before' if step == 'step1' else 'after'} the drop, another mould, twins"].append(
+            found[f"twins, {quantity} {'before' if step == 'step1' else 'after'} the drop"].append(
                 Case(f"twin {row['twin']}", statistics.mean(json.loads(row["materials"])), float(row["measured"]), HEAP_MM[quantity]))
     columns = defaultdict(list)
     for row in table("columns.csv"):
