@@ -10,9 +10,9 @@ import sys
 
 # What each count may be at most. Lower a number when the tree shrinks; one that has to grow wants a reason in its commit.
 MOST = {
-    "lines of C++ in calibrate": 36977,
-    "files of core and calibrate": 405,
-    "of them below 40 lines": 49,
+    "lines of C++ in calibrate": 36697,
+    "files of core and calibrate": 397,
+    "of them below 40 lines": 41,
     "files that start or wait for threads": 2,
     "files that decide whether a material meets the laboratory": 1,
     "lines of schemas written by hand": 282,
