@@ -152,7 +152,7 @@ class Readme(unittest.TestCase):
 
 # Files that the text speaks of, but that come into being elsewhere, and words with a slash that are no files.
 NAMED_OTHERWISE = {"card.json", "summary.txt", "evaluations.sqlite", "views.json", "lab.json", "study.json", "NOTES.txt",
-                   "material.py", "edem.txt", "my-chute.json", "cone/step1.height_mm"}
+                   "material.py", "edem.txt", "edem_material.py", "my-chute.json", "cone/step1.height_mm"}
 MADE = ("build/", "out/", "share/", "mortar/", "paste/")
 
 if __name__ == "__main__":

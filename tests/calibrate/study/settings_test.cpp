@@ -1,9 +1,8 @@
-#include "calibrate/study/study.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "calibrate/base/text.h"
+#include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"
 
 using namespace pastefit;
