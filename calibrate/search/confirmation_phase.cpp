@@ -8,7 +8,7 @@
 namespace pastefit {
 
 bool RecommendationPhase::advance() {
-  constexpr int rounds = 3;
+  constexpr int rounds = 8;
   const CandidateRanking ranking = state_.ranking();
   if (ranking.best().size() == 0) return true;
   if (simulated_ == rounds || !state_.may_go_on()) {
