@@ -212,8 +212,7 @@ double mean_residence_s(const Application& application) {
   const double fed_s = std::min(feed.mass_kg / feed.rate_kg_s, application.duration_s) / 2;  // of the mean grain
   const double until_the_end = application.duration_s - fed_s;
   if (!application.outlet) return until_the_end;
-  if (const double start = application.start_s(); start > 0)
-    return std::max((start + application.duration_s) / 2 - fed_s, 0.0);
+  if (const double start = application.start_s(); start > 0) return (start + application.duration_s) / 2 - fed_s;
   const double fall_m = std::max(0.0, feed.centre_m.z - application.outlet->point_m.z);
   return std::min(until_the_end, slowed * std::sqrt(2 * fall_m / gravity_m_s2));
 }

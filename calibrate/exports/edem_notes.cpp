@@ -1,4 +1,5 @@
 #include <numbers>
+#include <optional>
 
 #include "calibrate/base/embedded_text.h"
 #include "calibrate/base/text.h"
@@ -33,9 +34,9 @@ std::string walls_in_edem(const ExportScene& scene, double surface_energy) {
   return out;
 }
 
-/// Script for EDEMpy. `surface_energy`: of two grains with EDEM's JKR; 0 with another model, which is typed by hand, as
-/// `rest` says.
-ExportFile edem_script(const ExportScene& scene, double surface_energy, const std::string& rest) {
+/// Script for EDEMpy. `surface_energy`: of two grains with EDEM's JKR; none with another contact model, which is typed
+/// by hand, as `rest` says.
+ExportFile edem_script(const ExportScene& scene, std::optional<double> surface_energy, const std::string& rest) {
   constexpr double steel_kg_m3 = 7800;  // of walls, which no grain moves
   const ContactModel& contact = scene.contact();
   const auto material = [](const std::string& name, double poissons_ratio, double shear_pa, double density,
@@ -45,23 +46,19 @@ ExportFile edem_script(const ExportScene& scene, double surface_energy, const st
   const auto interaction = [](const std::string& with, double restitution, double friction, double rolling) {
     return format("    (\"grains\", \"%s\", %.9g, %.9g, %.9g),\n", with, restitution, friction, rolling);
   };
-  const auto energy = [&](const std::string& with, double share) {
-    return surface_energy > 0 ? format("    (\"grains\", \"%s\", %.9g),\n", with, share * surface_energy) : "";
-  };
   std::string materials = material("grains", contact.poissons_ratio, shear_modulus_pa(contact),
                                    scene.card_density_kg_m3.value_or(scene.grain_density_kg_m3), "True");
   std::string interactions = interaction("grains", contact.restitution, contact.friction,
                                          contact.rolling == RollingModel::none ? 0 : contact.rolling_friction);
-  std::string energies = energy("grains", 1);
   for (const auto& [name, wall] : scene.walls()) {
     materials += material(name, wall.poissons_ratio, shear_modulus_pa(wall), steel_kg_m3, "False");
     interactions += interaction(name, wall.restitution, wall.friction, wall.rolling_friction);
-    energies += energy(name, wall.cohesion_factor);
   }
-  return {
-      "edem_material.py",
-      filled_in("exports/texts/edem_material.py",
-                {{"rest", rest}, {"materials", materials}, {"interactions", interactions}, {"energies", energies}})};
+  return {"edem_material.py", filled_in("exports/texts/edem_material.py",
+                                        {{"rest", rest},
+                                         {"materials", materials},
+                                         {"interactions", interactions},
+                                         {"energy", surface_energy ? format("%.9g", *surface_energy) : "None"}})};
 }
 
 /// `more`: what the model needs beside the numbers of grains. `energy`: surface energy of two grains.
@@ -100,7 +97,7 @@ Export eepa_notes(const ExportScene& scene) {
       scene, "Edinburgh Elasto-Plastic Adhesion (EEPA)", ";\n   " + eepa_numbers(contact, energy, pull_off, 1) + ".",
       energy, filled_in("exports/texts/edem_eepa.txt", {{"wall_numbers", wall_numbers}}));
   return {law_files(scene, {{"edem.txt", instructions},
-                            edem_script(scene, 0, "the contact model EEPA, the rolling model and the radii")}),
+                            edem_script(scene, {}, "the contact model EEPA, the rolling model and the radii")}),
           {"Exponents, modulus, plasticity ratio and constant pull-off force are the card's.",
            format("The adhesion ratio has no counterpart in the dialogue. EDEM's EEPA takes the pull-off of a contact "
                   "from a surface energy, 1.5 pi gamma a with a the radius of the patch that was flattened, and lays "
@@ -143,14 +140,15 @@ Result<Export> export_edem_notes(const ExportScene& scene) {
                energy) +
         "a third of a percent smaller.";
     return Export{law_files(scene, {{"edem.txt", edem_instructions(scene, "Hertz-Mindlin with JKR", more, energy)},
-                                    edem_script(scene, energy, "the rolling model and the radii")}),
+                                    edem_script(scene, energy,
+                                                "the surface energies of walls, the rolling model and the radii")}),
                   {"EDEM's JKR lets go of grains at 0.917 of the contact radius at which pastefit's does, a third of a "
                    "percent sooner in distance.",
                    "Not run in EDEM."}};
   }
   Export out{
       law_files(scene, {{"edem.txt", bridge_instructions(scene)},
-                        edem_script(scene, 0, "the attraction, the rolling model and the radii")}),
+                        edem_script(scene, {}, "the attraction, the rolling model and the radii")}),
       {"EDEM has no bridge across a gap without a plug-in; its JKR attracts only after contact.", "Not run in EDEM."}};
   if (contact.bridge.shape != BridgeShape::none)
     out.own_law = R"("contact": {"normal": "jkr", "attraction": "none"}, with "adhesion_pa" free)";

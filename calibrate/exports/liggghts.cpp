@@ -182,11 +182,11 @@ Faults beyond_limits(const ExportScene& scene) {
   return faults;
 }
 
-/// Size of the simulation. LIGGGHTS makes 2.3 million particle-steps per second on a core in a chute with `epa` (7,400
-/// grains) and 2.4 million in a hopper of dry grains (13,000); 3.1 with sjkr, 1.6 with a capillary bridge
+/// Size of the simulation. On a core, LIGGGHTS made 2.3 million particle-steps per second in a chute with `epa`, 2.4
+/// million in a hopper of dry grains (tests/results/machine_runs.csv), and 1.6 million with a capillary bridge
 /// (tests/results/speed.csv).
 std::string effort_in_words(const Application& application, const ExportScene& scene, double time_step_s) {
-  constexpr double steps_per_core_s = 2.3e6;
+  const double steps_per_core_s = scene.contact().bridge.shape == BridgeShape::none ? 2.3e6 : 1.6e6;
   double volume = 0;
   for (const double radius : scene.packing.radii) volume += 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
   const double mean_mass = volume / static_cast<double>(scene.packing.radii.size()) * scene.grain_density_kg_m3;

@@ -3,10 +3,11 @@
 
 usage: columns.py PROGRAM TABLE.csv [--packings 3]
 
-A cylinder of radius 80 mm is lifted at 2 m/s. Measured on sands, rice, salt and sugar, a being the initial height over the
-initial radius r: the deposit's radius is r (1 + 1.24 a) for a < 1.7, r (1 + 1.6 sqrt(a)) above (Lube, Huppert, Sparks, Hallworth,
-J. Fluid Mech. 508 (2004) 175-199); its height on glass beads is r a for a < 0.74, 0.74 r above (Lajeunesse, Mangeney-Castelnau,
-Vilotte, Phys. Fluids 16 (2004) 2371-2381). The first law does not depend on the grains, so that nothing is calibrated.
+A cylinder of radius 80 mm with grains of 8 mm is lifted at 2 m/s. a is the initial height over the initial radius r. The
+deposit's radius is r (1 + 1.24 a) for a < 1.7, r (1 + 1.6 sqrt(a)) above, for sand, sugar, salt and rice alike; its height is
+0.88 r a^(1/6) for a > 1.7 (Lube, Huppert, Sparks, Hallworth, J. Fluid Mech. 508 (2004) 175-199). On glass beads the height is
+r a for a < 0.74, 0.74 r above (Lajeunesse, Mangeney-Castelnau, Vilotte, Phys. Fluids 16 (2004) 2371-2381). The law of the
+radius does not depend on the grains, so that nothing is calibrated.
 """
 import argparse
 import csv
@@ -18,7 +19,7 @@ from pathlib import Path
 
 RADIUS_MM = 80
 ASPECT_RATIOS = (0.5, 1, 1.5, 2, 3, 5)
-FRICTIONS = ((0.3, 0.1), (0.5, 0.1), (0.7, 0.3))  # friction, rolling friction: angles of repose of 13 to 27 degrees
+FRICTIONS = ((0.3, 0.1), (0.5, 0.1), (0.7, 0.3))  # friction, rolling friction: angles of repose of about 13 to 28 degrees
 LAB = {
     "format": "pastefit-lab-1",
     "title": "Collapse of a column",
@@ -37,22 +38,26 @@ STUDY = {
     "parameters": {"friction": {"free": [0.2, 0.8]}, "rolling_friction": {"value": 0.1}, "table_friction": {"value": 0.5},
                    "table_rolling_friction": {"value": 0.1}, "mould_friction": {"value": 0.1}},
 }
-COLUMNS = ["aspect_ratio", "friction", "rolling_friction", "packing", "radius_mm", "height_mm", "measured_radius_mm", "measured_height_mm"]
+COLUMNS = ["aspect_ratio", "friction", "rolling_friction", "packing", "radius_mm", "height_mm", "law_radius_mm", "law_height_mm", "law_height_of_lube_mm"]
 
 
-def measured_radius_mm(aspect):
+def law_radius_mm(aspect):
     return RADIUS_MM * (1 + (1.24 * aspect if aspect < 1.7 else 1.6 * math.sqrt(aspect)))
 
 
-def measured_height_mm(aspect):
+def law_height_mm(aspect):
     return RADIUS_MM * min(aspect, 0.74)
+
+
+def law_height_of_lube_mm(aspect):
+    return round(0.88 * RADIUS_MM * aspect ** (1 / 6), 1) if aspect > 1.7 else ""
 
 
 def write_files(folder, aspect):
     height_mm = aspect * RADIUS_MM
     mould = {"base_diameter_mm": 2 * RADIUS_MM, "top_diameter_mm": 2 * RADIUS_MM, "height_mm": height_mm}
-    readings = {"step1.height_mm": {"value": measured_height_mm(aspect), "standard_deviation": 2},
-                "step1.spread_mm": {"value": 2 * measured_radius_mm(aspect), "standard_deviation": 10}}
+    readings = {"step1.height_mm": {"value": law_height_mm(aspect), "standard_deviation": 2},
+                "step1.spread_mm": {"value": 2 * law_radius_mm(aspect), "standard_deviation": 10}}
     lab = {**LAB, "apparatus": {"mould": mould, **APPARATUS}, "measurements": readings}
     (folder / "lab.json").write_text(json.dumps(lab))
     (folder / "study.json").write_text(json.dumps(STUDY))
@@ -79,8 +84,8 @@ def measure(options):
                 for packing in range(1, options.packings + 1):
                     found = deposit(options.program, folder, friction, rolling, packing)
                     rows.writerow([aspect, friction, rolling, packing, round(found["step1.spread_mm"] / 2, 1),
-                                   round(found["step1.height_mm"], 1), round(measured_radius_mm(aspect), 1),
-                                   round(measured_height_mm(aspect), 1)])
+                                   round(found["step1.height_mm"], 1), round(law_radius_mm(aspect), 1),
+                                   round(law_height_mm(aspect), 1), law_height_of_lube_mm(aspect)])
                     file.flush()
 
 

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Discharge of a flat-bottomed hopper against a measurement, by the way of a user: angle of repose, card, deck, key figures.
+"""Discharge of a flat-bottomed hopper beside a measurement, by the way of a user: angle of repose, card, deck, key figures.
 
-usage: hopper.py PROGRAM DIR [--angle 21] [--depths 40,55]
+usage: hopper.py PROGRAM DIR TABLE.csv [--angle 21] [--depths 40,55]
 
-Measured (tests/results/hopper_discharge.csv): plastic spheres of 6 mm, 1592 kg/m3, 2.344 kg, in a box 200 mm wide with a slot of
-40 mm; projectchrono/DEM-Engine, branch DryGranulaFlows, post/GranularFlow/post_Plastic_Sph_Hopper.m (BSD-3), which does not name
-the paper that the curve was read from, and gives 40 and 55 mm for the depth of the box. No angle of repose was measured: 21
-degrees is the slope of the remaining 5.6 % at a depth of 55 mm, and what that source's fitted friction of 0.40 leaves here.
-Needs `liggghts`; a run takes some ten minutes of a core.
+Measured (hopper_measured.csv): plastic spheres of 6 mm, 1592 kg/m3, 2.344 kg, in a box 200 mm wide with a slot of 40 mm;
+projectchrono/DEM-Engine, branch DryGranulaFlows, post/GranularFlow/post_Plastic_Sph_Hopper.m (BSD-3), which does not name the
+paper that the curve was read from, and gives 40 and 55 mm for the depth of the box. Assumed: the angle of repose, which was
+not measured (21 degrees is what that source's fitted friction of 0.40 leaves here), and the frictions of the walls. The mass
+that remains is no prediction, since the slopes that it leaves are what an angle of repose is. Needs `liggghts`; a run takes
+some ten minutes of a core.
 """
 import argparse
 import csv
@@ -20,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "data/applications"))
 import make_surfaces  # noqa: E402
 
-MEASURED = ROOT / "tests/results/hopper_discharge.csv"
+MEASURED = Path(__file__).resolve().parent / "hopper_measured.csv"
 HALF_WIDTH_MM, HALF_SLOT_MM, TOP_MM = 100, 20, 400
 GRAIN_DENSITY, SOLID_FRACTION = 1592, 0.571  # of the heap's filled cylinder
 
@@ -98,15 +99,17 @@ def run(options):
         subprocess.run([options.program, "kpi", deck], check=True)
         for row, percent in zip(measured, discharged_percent(deck / "figures.csv", [float(row["time_s"]) for row in measured])):
             row[f"depth_{depth}_mm_percent"] = percent
-    rows = csv.DictWriter(sys.stdout, measured[0].keys())
-    rows.writeheader()
-    rows.writerows(measured)
+    with open(options.table, "w", newline="") as file:
+        rows = csv.DictWriter(file, measured[0].keys())
+        rows.writeheader()
+        rows.writerows(measured)
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("folder", metavar="DIR")
+    parser.add_argument("table", metavar="TABLE.csv")
     parser.add_argument("--angle", type=float, default=21)
     parser.add_argument("--depths", default="40,55")
     run(parser.parse_args())

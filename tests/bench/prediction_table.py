@@ -3,8 +3,8 @@
 
 usage: prediction_table.py [--check PAGE.md]
 
-Reads tests/results/unfitted_readings.csv (from unfitted_reading.py), predicted_readings.csv (from predictions.py) and columns.csv
-(from columns.py), and prints a row for each quantity and its three worst cases; --check compares the rows with a page.
+Reads tests/results/unfitted_readings.csv (from unfitted_reading.py) and predicted_readings.csv (from predictions.py), and prints
+a row for each quantity and its three worst cases; --check compares the rows with a page.
 
 Bias and scatter are those of the validation guide of the Fire Dynamics Simulator (McGrattan and Toman, NIST, 2011). With
 r = ln(predicted / measured), the deviation of r is that of model and laboratory together. Without the laboratory's own relative
@@ -51,14 +51,6 @@ def cases():
         if row["status"] == "confirmed" and quantity in HEAP_MM:
             found[f"twins, {quantity} {'before' if step == 'step1' else 'after'} the drop"].append(
                 Case(f"twin {row['twin']}", statistics.mean(json.loads(row["materials"])), float(row["measured"]), HEAP_MM[quantity]))
-    columns = defaultdict(list)
-    for row in table("columns.csv"):
-        columns[row["aspect_ratio"], row["friction"], row["rolling_friction"]].append(row)
-    for (aspect, friction, rolling), rows in columns.items():
-        for reading in ("radius", "height"):
-            predicted = statistics.mean(float(row[f"{reading}_mm"]) for row in rows)
-            found[f"{reading} of collapsed dry columns"].append(
-                Case(f"{aspect}, friction {friction}/{rolling}", predicted, float(rows[0][f"measured_{reading}_mm"]), 0))
     return found
 
 

@@ -1,9 +1,10 @@
-"""Writes the material of a card into a copy of an EDEM deck: materials, interactions, and surface
-energies of JKR if the card has them.
+"""Creates the material of a card in an EDEM deck: materials, interactions and, for JKR, the surface energy of two grains.
 
-usage, with the Python of EDEM (EDEMpy), while EDEM does not have the deck open: edem_material.py DECK.dem
+usage: edem_material.py DECK.dem
 
-Materials of these names must not exist in the deck. What is left is in edem.txt: @rest@.
+Copy all files of the deck first, and run the script on the copy, with a Python that has EDEMpy, while EDEM does not have the
+deck open. The deck must not have materials of these names, and has the contact model "Hertz-Mindlin (no slip)". What is
+left is in edem.txt: @rest@, and the interactions of the grains with your own walls.
 Written after public examples of EDEMpy; not run in EDEM, because there was no licence for it.
 """
 import sys
@@ -17,9 +18,7 @@ MATERIALS = [
 # two names, restitution, static friction, rolling friction
 INTERACTIONS = [
 @interactions@]
-# two names, surface energy [J/m2]
-SURFACE_ENERGIES = [
-@energies@]
+SURFACE_ENERGY = @energy@  # of two grains [J/m2]; None: another contact model
 
 
 def write(path):
@@ -28,10 +27,11 @@ def write(path):
         deck.createMaterial(name, poisson, shear_modulus, density, 0, bulk)  # 0: work function
     for interaction in INTERACTIONS:
         deck.createInteraction(*interaction)
-    if SURFACE_ENERGIES:
+    if SURFACE_ENERGY is not None:
         deck.deletePhysicsModelSurfSurf("Hertz-Mindlin (no slip)")
         columns = [("name1", "S256"), ("name2", "S256"), ("value", "<f8")]
-        deck.createPhysicsModelSurfSurf("Hertz-Mindlin with JKR", {"data": np.array(SURFACE_ENERGIES, dtype=columns)})
+        energies = np.array([("grains", "grains", SURFACE_ENERGY)], dtype=columns)
+        deck.createPhysicsModelSurfSurf("Hertz-Mindlin with JKR", {"data": energies})
     deck.save()
 
 
