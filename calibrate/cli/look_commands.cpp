@@ -237,7 +237,7 @@ int predict_other(const PredictOptions& options) {
     print(json_text(prediction_json(found, materials)));
   } else {
     const std::string open = unconfirmed_line(family.card);
-    print("%s%s", open.empty() ? "" : (one_line(open) + "\n").c_str(), prediction_table(found, materials).c_str());
+    print((open.empty() ? "" : wrapped(one_line(open) + "\n")) + prediction_table(found, materials));
   }
   return std::ranges::all_of(found.readings, &ReadingPrediction::is_within) ? kDone : kFailed;
 }
