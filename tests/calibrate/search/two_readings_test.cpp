@@ -105,7 +105,7 @@ TEST_CASE("a reading that is never 0, but within its tolerance of it, does not h
   const Campaign campaign = search_all({mixes[1], mixes[5]}, shifting_heap);
   INFO("median of simulations " << campaign.median_simulations());
   CHECK(campaign.confirmed() >= 0.85);
-  CHECK(campaign.median_simulations() <= 25);  // 27 if a candidate is asked when it is all but certain (0.97)
+  CHECK(campaign.median_simulations() <= 30);  // eight of them of the recommended candidate
 }
 
 TEST_CASE("a reading that is off by more than its tolerance is not made up for by one that is met") {
