@@ -12,7 +12,7 @@ bool RecommendationPhase::advance() {
   const CandidateRanking ranking = state_.ranking();
   if (ranking.best().size() == 0) return true;
   const int rounds = ranking.surrogate().noise() < little_noise * state_.history.allowed_misfit() ? 3 : 8;
-  if (simulated_ == rounds || !state_.may_go_on()) {
+  if (simulated_ >= rounds || !state_.may_go_on()) {
     if (StrategyState::is_likely(ranking, ranking.most_plausible())) found_ = ranking.most_plausible();
     return true;
   }
