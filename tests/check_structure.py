@@ -10,7 +10,7 @@ import sys
 
 # What each count may be at most. Lower a number when the tree shrinks; one that has to grow wants a reason in its commit.
 MOST = {
-    "lines of C++ in calibrate": 36729,
+    "lines of C++ in calibrate": 36731,
     "files of core and calibrate": 397,
     "of them below 40 lines": 41,
     "files that start or wait for threads": 2,

@@ -9,9 +9,11 @@ namespace pastefit {
 
 bool RecommendationPhase::advance() {
   constexpr double little_noise = 0.03;  // [allowed misfit]
+  constexpr int few = 3, many = 8, small_budget = 4 * many;
   const CandidateRanking ranking = state_.ranking();
   if (ranking.best().size() == 0) return true;
-  const int rounds = ranking.surrogate().noise() < little_noise * state_.history.allowed_misfit() ? 3 : 8;
+  const bool is_exact = ranking.surrogate().noise() < little_noise * state_.history.allowed_misfit();
+  const int rounds = is_exact || state_.history.budget_left() + simulated_ < small_budget ? few : many;
   if (simulated_ >= rounds || !state_.may_go_on()) {
     if (StrategyState::is_likely(ranking, ranking.most_plausible())) found_ = ranking.most_plausible();
     return true;

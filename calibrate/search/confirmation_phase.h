@@ -13,9 +13,9 @@ namespace pastefit {
 /// Chooses the candidate to confirm among all that are likely to meet the readings: the point of least expected misfit,
 /// priors included (the maximum a posteriori point; in Bayesian optimisation, the recommendation). Otherwise a search
 /// would report whichever acceptable material it met first, which differs from seed to seed. Each of eight rounds, or
-/// of three if the simulations have little noise, simulates that point on a fresh packing and asks the surrogate again.
-/// Limit: the noise of the simulations shifts the point; their number bounds how well two seeds agree. Requirement: the
-/// best candidate is likely to be confirmed (`StrategyState::goal_is_met`).
+/// of three if the simulations have little noise or few are left, simulates that point on a fresh packing and asks the
+/// surrogate again. Limit: the noise of the simulations shifts the point; their number bounds how well two seeds agree.
+/// Requirement: the best candidate is likely to be confirmed (`StrategyState::goal_is_met`).
 class RecommendationPhase : public SearchPhase {
  public:
   explicit RecommendationPhase(StrategyState& state) : state_(state) {}
